@@ -194,7 +194,7 @@ fn what_cannot_be_measured_is_refused() {
         (code(&output), stderr(&output))
     };
     let (code, said) = bench("fretting_sphere", &[]);
-    assert!(code == 2 && said.contains("fretting_sphere: nothing is free"), "{code} {said}");
+    assert!(code == 2 && said.contains("fretting_sphere: no coordinate is free"), "{code} {said}");
     let (code, said) = bench("p1", &["--known", "p1:foot.x_m=1"]);
     assert!(code == 2 && said.contains("expected a free coordinate, one of slider.x_m"), "{code} {said}");
     let (code, said) = bench("p1", &["--known", "p2:slider.x_m=1"]);

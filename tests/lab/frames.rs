@@ -146,6 +146,6 @@ fn what_frames_cannot_be_measured_of_is_refused() {
     let (code, said) = bench(Path::new("nowhere.json"), &[]);
     assert!(code == 2 && said.contains("nowhere.json"), "{code} {said}");
     let (code, said) = bench(&scenario("fretting_sphere"), &[]);
-    assert!(code == 2 && said.contains("fretting_sphere: nothing is free"), "{code} {said}");
+    assert!(code == 2 && said.contains("fretting_sphere: no coordinate is free"), "{code} {said}");
     assert!(!out.path().join("out").exists());
 }

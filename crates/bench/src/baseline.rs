@@ -1,5 +1,5 @@
-//! Reference implementations that a user might write. These are fixed-step loops over rows of springs or with the exact contact law, and
-//! an external integrator with its own event location.
+//! Reference implementations that a user might write: fixed-step loops over rows of springs or with the exact contact law, and an external
+//! integrator with its own event location.
 //!
 //! All use a [`Mechanism`], which is made from a model. The reference implementations share no force law, time integration or event
 //! location with the program. Moduli, profiles and the initial memory come from the program.
@@ -17,7 +17,7 @@ use stickslip_contact::{Curve, Interface, Memory};
 use stickslip_drive::scene::{Axis, Direction, Named, Normal, Varying};
 use stickslip_drive::{Model, Scene, State, Waveform};
 
-/// Model as the reference implementations see it: masses, constant forces, contacts.
+/// Model for the reference implementations: masses, constant forces and contacts.
 #[derive(Debug, Clone)]
 pub(crate) struct Mechanism {
     /// Free coordinates in their order.
@@ -27,7 +27,7 @@ pub(crate) struct Mechanism {
     tracks: Vec<Track>,
 }
 
-/// Prescribed quantity: a waveform, or an indentation that follows it.
+/// Prescribed quantity: a waveform, or an indentation that follows a waveform.
 #[derive(Debug, Clone)]
 struct Track {
     waveform: Waveform,

@@ -23,7 +23,7 @@ pub enum BenchError {
         why: String,
     },
     /// Interrupted by the watcher.
-    #[error("{0}: interrupted; nothing is written of it")]
+    #[error("{0}: interrupted; no results were written")]
     Interrupted(String),
     /// Error while drawing a plot.
     #[error("{name}: {source}")]
@@ -50,7 +50,7 @@ impl BenchError {
         match stop {
             Stop::Interrupted => Self::Interrupted(name),
             Stop::Failed(why) => Self::Stopped { name, why },
-            Stop::Slow => Self::Stopped { name, why: "a run found no end".to_owned() },
+            Stop::Slow => Self::Stopped { name, why: "a run exceeded its time limit".to_owned() },
         }
     }
 }

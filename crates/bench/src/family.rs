@@ -11,7 +11,7 @@ use stickslip_drive::{Counts, Model, Stepper};
 
 /// Numbers of springs of a row.
 pub(crate) const ROWS: [usize; 3] = [64, 256, 1024];
-/// Numbers of springs of a row in the fixed-step loops, which are fast enough for more.
+/// Numbers of springs of a row in the fixed-step loops, which are fast enough for longer rows.
 pub(crate) const LOOPS: [usize; 4] = [64, 256, 1024, 4096];
 
 /// Method of solution.
@@ -35,7 +35,7 @@ pub(crate) enum Setting {
     Tolerance,
     /// Step, s.
     Step,
-    /// None: there is a single run.
+    /// No parameter, because there is a single run.
     Nothing,
 }
 
@@ -170,7 +170,7 @@ fn exact<'p>(mechanism: &Mechanism, (duration, staged): (f64, bool), steps: &[f6
     Some(Family::new(Method::Loop { springs: None, staged }, Box::new(contestant), steps))
 }
 
-/// Returns the minimal code with N nodes.
+/// Returns the minimal code with N quadrature nodes.
 fn ground<'p, const N: usize>((floor, periods): (Floor, u32)) -> Family<'p> {
     let contestant = Ground { floor, periods, rule: Rule::<N>::default() };
     Family::new(Method::Floor { nodes: N as u32 }, Box::new(contestant), &[N as f64])

@@ -28,7 +28,7 @@ use arc::Arc;
 /// Exponent p of a paraboloid.
 const PARABOLOID: f64 = 1.5;
 
-/// Drive with the parameters of `scenarios/p1.json`, or similar ones.
+/// Drive with the parameters of `scenarios/p1.json`, or similar parameters.
 #[derive(Debug, Clone, Copy)]
 pub struct Floor {
     /// Mass of the slider, kg.

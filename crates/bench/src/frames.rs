@@ -58,7 +58,7 @@ pub struct FramesRequest {
     pub periods: Vec<f64>,
     /// Number of frames of each loop without pacing.
     pub frames: u64,
-    /// Duration of each paced loop, s; 0 for none.
+    /// Duration of each paced loop, s; 0 for no paced loops.
     pub paced: f64,
     /// Output folder.
     pub out: PathBuf,

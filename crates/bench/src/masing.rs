@@ -18,7 +18,7 @@ pub(crate) struct Masing {
     pub(crate) at: f64,
     /// Direction of sliding σ, ±1.
     pub(crate) sense: f64,
-    /// Whether the contact is in gross slip, and whether it never has been.
+    /// Whether the contact is in gross slip, and whether it has never been in gross slip.
     pub(crate) gross: bool,
     virgin: bool,
     /// Reversals (u, φ) of open loops. The first reversal is stored with its opposite point.

@@ -54,7 +54,7 @@ pub(crate) fn coordinates(scene: &Scene) -> Vec<Coordinate> {
     coordinates
 }
 
-/// Returns the distance of the farthest contact point of a body from its reference point, m, or 1 if all coincide with it.
+/// Returns the distance of the farthest contact point of a body from its reference point, m; 1 if all contact points lie there.
 fn arm(scene: &Scene, body: usize) -> f64 {
     let contacts = scene.contacts.iter().map(|contact| &contact.part);
     let ends = contacts.flat_map(|contact| contact.between.into_iter().zip(contact.at));

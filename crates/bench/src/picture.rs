@@ -5,10 +5,10 @@ use stickslip_plot::{Figure, PlotError, Theme, WorkCurve, draw_png, draw_svg, wo
 use stickslip_run::Job;
 use stickslip_run::provenance;
 
-/// Name of the picture's files, without ending.
+/// Name of the plot files without extension.
 pub const NAME: &str = "work-precision";
 
-/// The curves of the diagram, and the methods and engine of each: of several the best run for every error counts.
+/// Curves of the diagram: name, methods and contact engine. For each error, the best run of these methods counts.
 const CURVES: [(&str, &[&str], &str); 5] = [
     ("event", &["event"], "curve"),
     ("rk4", &["rk4", "exact-rk4"], "curve"),
@@ -17,7 +17,7 @@ const CURVES: [(&str, &[&str], &str); 5] = [
     ("springs", &["loop", "loop-rk4"], "springs"),
 ];
 
-/// Draws the diagram light, dark and as SVG from the text of `bench.csv`; rows without a result are left out.
+/// Draws the diagram as light and dark PNG and as SVG, from the text of `bench.csv`. Rows without a result are left out.
 ///
 /// # Errors
 /// A figure that cannot be drawn.

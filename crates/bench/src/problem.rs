@@ -15,7 +15,7 @@ use thiserror::Error;
 pub(crate) const REFERENCE: f64 = 1e-14;
 /// Tolerance of a second run that estimates the error of the reference.
 pub(crate) const CHECK: f64 = 1e-13;
-/// Factor to the largest indentation of the reference. The contact width at the product is the length of the rows of springs.
+/// Factor on the largest indentation of the reference. Rows of springs have the length of the contact width at the resulting indentation.
 const REACH: f64 = 1.05;
 
 /// Scenario with its reference solution.
@@ -52,12 +52,12 @@ pub struct Known {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProblemError {
     /// The model has no free coordinate.
-    #[error("{0}: nothing is free, so there is nothing to integrate")]
+    #[error("{0}: no coordinate is free, so there is no motion to integrate")]
     NothingFree(String),
     /// Nothing moves, so there is no length to which errors are relative.
-    #[error("{0}: nothing moves, so there is no length to measure errors by")]
+    #[error("{0}: nothing moves, so there is no length to which errors are relative")]
     NothingMoves(String),
-    /// A known value is not that of a free coordinate.
+    /// A known value belongs to a channel that is not a free coordinate.
     #[error("{name}: --known {channel}: expected a free coordinate, one of {choice}")]
     Channel {
         /// Name of the scenario.
@@ -144,7 +144,7 @@ impl Problem {
         Ok(Self { scene, duration, model, columns, norm, reference, doubt, spans, mechanism, known })
     }
 
-    /// Returns natural length, m, and velocity, m/s, of each free coordinate: those of the first contact of its body.
+    /// Returns natural length, m, and velocity, m/s, of each free coordinate: the natural units of the first contact of its body.
     pub(crate) fn scales(&self) -> Vec<(f64, f64)> {
         let touches =
             |body: usize, c: &usize| self.scene.contacts[*c].part.between.contains(&Side::Body(body));

@@ -19,8 +19,8 @@ impl Samples {
         Self { width, values: Vec::with_capacity((MOMENTS + 2) * width) }
     }
 
-    /// Returns the interval of the grid, s. The last grid point lies half an interval before the end, so that rounding cannot add one and
-    /// all phases of a drive are sampled.
+    /// Returns the interval of the grid, s. The last grid point lies half an interval before the end, so that rounding cannot add a point,
+    /// and all phases of a drive are sampled.
     pub(crate) fn interval(duration: f64) -> f64 {
         duration / (MOMENTS as f64 + 0.5)
     }

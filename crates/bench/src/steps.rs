@@ -22,7 +22,7 @@ pub(crate) fn fixed(scene: &Scene, duration: f64, longest: f64) -> Vec<f64> {
     (0..LEVELS).map(|level| measure / (first * 2_f64.powi(level))).collect()
 }
 
-/// Returns the longest time of which all corners and the end are multiples, s, or the whole run if that time is too short.
+/// Returns the longest time step, s, that divides the times of all corners and the end, or the whole run if that step is too short.
 fn common_measure(scene: &Scene, duration: f64, longest: f64) -> f64 {
     let mut measure = duration;
     for waveform in &scene.waveforms {

@@ -17,8 +17,8 @@ const REPEATS: f64 = 500.0;
 /// Expected ratio of run times between a tolerance or step and the previous one.
 const GROWTH: f64 = 2.0;
 
-/// Measures all methods in about `budget` s of wall time. Half of it is for errors, in equal shares per method. Runs that exceed the
-/// share are omitted with a note. The other half is for times: every run has one round, and further ones while its share lasts.
+/// Measures all methods in about `budget` s of wall time. Half of this time is for errors, in equal shares per method. Runs that exceed the
+/// share are omitted with a note. The other half is for times: every run has one round, and further rounds while its share lasts.
 pub(crate) fn measure(
     problem: &Problem,
     families: &mut [Family<'_>],
@@ -41,7 +41,7 @@ fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, watcher: &dyn 
         let left = share - begun.elapsed().as_secs_f64();
         if slow || GROWTH * last > left {
             slow = true;
-            "left out: longer than its share of the time".clone_into(&mut run.note);
+            "omitted: longer than its share of the time".clone_into(&mut run.note);
             continue;
         }
         let watch = Stopwatch::start();
@@ -52,12 +52,12 @@ fn sample(problem: &Problem, family: &mut Family<'_>, share: f64, watcher: &dyn 
                 let (errors, known) = problem.errors(&samples);
                 run.result = Some(Measured { errors, known, counts, cost, turns: 0, times: 1 });
             }
-            Ok(_) => "some moments are missing".clone_into(&mut run.note),
+            Ok(_) => "some sample times are missing".clone_into(&mut run.note),
             Err(Stop::Interrupted) => return Err(Stop::Interrupted),
             Err(Stop::Failed(why)) => run.note = why,
             Err(Stop::Slow) => {
                 slow = true;
-                "left out: longer than its share of the time".clone_into(&mut run.note);
+                "omitted: longer than its share of the time".clone_into(&mut run.note);
             }
         }
     }

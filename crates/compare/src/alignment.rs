@@ -3,10 +3,10 @@
 /// Maximum number of cells of the alignment table.
 const MOST_CELLS: usize = 20_000_000;
 
-/// Alignment of two sequences, as indices into both.
+/// Alignment of two sequences of times, as indices into both sequences.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Alignment {
-    /// Matched times in ascending order. Their distance may exceed the tolerance.
+    /// Matched times in ascending order. The two times of a pair may differ by more than the tolerance.
     pub pairs: Vec<(usize, usize)>,
     /// Indices of unmatched times of the first sequence.
     pub missing: Vec<usize>,
@@ -14,10 +14,10 @@ pub(super) struct Alignment {
     pub extra: Vec<usize>,
 }
 
-/// Cost of an alignment: number of differences, and the sum of the distances of the pairs, s, to decide between equal numbers.
+/// Cost of an alignment: number of differences, then sum of the distances of all pairs, s, for alignments with equal numbers.
 type Cost = (u32, f64);
 
-/// Last step of the alignment of two prefixes.
+/// Last step of the alignment of the beginnings of two sequences.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Last {
     Pair,
@@ -28,9 +28,9 @@ enum Last {
 impl Alignment {
     /// Aligns two ascending sequences of times with the minimum number of differences.
     ///
-    /// A pair farther apart than `tolerance`, a missing time and an extra time count as one difference each. Among alignments with the same
-    /// number, the minimum sum of distances decides. The cost is Levenshtein's edit distance. It is computed in a band around the diagonal
-    /// of the table (Ukkonen 1985). The band is doubled until the minimum is certain or the table is too large.
+    /// A pair of times farther apart than `tolerance`, a missing time and an extra time count as one difference each. Among alignments with
+    /// the same number of differences, the minimum sum of distances decides. The cost, Levenshtein's edit distance, is computed in a band
+    /// around the diagonal of the table (Ukkonen 1985). The band is doubled until the minimum is certain or the table is too large.
     pub(super) fn new(a: &[f64], b: &[f64], tolerance: f64) -> Self {
         let is_near = |(s, t): &(&f64, &f64)| (*s - *t).abs() <= tolerance;
         let start = a.iter().zip(b).take_while(is_near).count();
@@ -60,7 +60,7 @@ impl Alignment {
 
 /// Returns the optimal sequence of alignment steps for both sequences.
 ///
-/// If even the narrowest band exceeds [`MOST_CELLS`], times with equal indices are paired and the rest of the longer sequence is unmatched.
+/// If even the narrowest band exceeds [`MOST_CELLS`], times with equal indices are paired; the rest of the longer sequence is unmatched.
 fn path(a: &[f64], b: &[f64], tolerance: f64) -> Vec<Last> {
     let (shorter, longer) = (a.len().min(b.len()), a.len().max(b.len()));
     let cells = |half: usize| (2 * half + 1).saturating_mul(a.len() + 1);

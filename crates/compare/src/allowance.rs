@@ -9,23 +9,23 @@ use stickslip_scenario::{quantity, suggestion};
 
 /// Relative tolerance between runs with the same integrator and the same tolerance or step.
 ///
-/// Such runs perform the same arithmetic. The tolerance covers only a different rounding of sums.
+/// Runs with the same integrator and tolerance perform the same arithmetic. `SAME_RUN` only allows for a different rounding of sums.
 const SAME_RUN: f64 = 1e-10;
-/// Maximum time tolerance between such runs, s.
+/// Maximum time tolerance between runs with the same integrator and the same tolerance or step, s.
 const SAME_MOMENT: f64 = 1e-10;
-/// Ratio of global to local error. Examples at tolerances of 1e-6 to 1e-10 differ from runs at 1e-12 by less.
+/// Ratio of global to local error. Example scenarios at tolerances of 1e-6 to 1e-10 differ from runs at 1e-12 by less than this ratio.
 const GLOBAL: f64 = 100.0;
-/// Relative tolerance if the integrators differ and at least one has a fixed step.
+/// Relative tolerance if the integrators differ and at least one integrator has a fixed step.
 const FIXED_STEP: f64 = 1e-4;
 /// Default factor of the absolute tolerance: absolute tolerance = factor × relative tolerance × natural scale of the model.
 ///
-/// Changes of a channel below one per cent of its scale count as rest.
+/// Changes of a channel below one per cent of the natural scale count as rest.
 const AT_REST: f64 = 1e-2;
 
 /// Tolerances of a comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Allowance {
-    /// Relative to the largest magnitude of a channel.
+    /// Tolerance relative to the largest magnitude of a channel.
     pub relative: f64,
     /// Tolerance of event times, s.
     pub time: f64,
@@ -41,7 +41,7 @@ pub(super) struct Allowance {
 }
 
 impl Allowance {
-    /// Returns the tolerances of `terms`. Where `terms` gives none, the integrators of both runs determine the tolerance.
+    /// Returns the tolerances that `terms` gives. Otherwise, the integrators of both runs determine the tolerances.
     ///
     /// `span` is the compared time, s.
     pub(super) fn new(a: &Results, b: &Results, span: f64, terms: &Terms) -> Self {
@@ -72,7 +72,7 @@ impl Allowance {
     /// Adds the absolute tolerances and the ignored names of `terms`.
     ///
     /// # Errors
-    /// A name is not among `known`, or a tolerance is not a quantity of 0 or more.
+    /// Fails if a name is not among `known`, or a tolerance is not a quantity of 0 or more.
     pub(super) fn refine(&mut self, terms: &Terms, known: &[String]) -> Result<(), CompareError> {
         for (name, text) in &terms.absolute {
             if !known.contains(name) {
@@ -99,7 +99,7 @@ impl Allowance {
         Ok(())
     }
 
-    /// Returns whether a channel or summary value is ignored, by its own name or by the name of its owner.
+    /// Returns whether a channel or summary value is ignored, by its own name or by the name of its body, contact or waveform.
     pub(super) fn ignores(&self, name: &str) -> bool {
         self.ignored.iter().any(|ignored| ignored == name || ignored == owner(name))
     }

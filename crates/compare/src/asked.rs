@@ -13,7 +13,7 @@ const EVERYWHERE: [f64; 2] = [0.0, f64::INFINITY];
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Asked {
     /// Kinds and contacts of the written events, and whether events are written at all. The maximum number of events is not included,
-    /// because all events up to the thinning are compared.
+    /// because all events before the first omitted one are compared.
     events: Value,
     /// Time window of the rows and events, s.
     window: [f64; 2],
@@ -24,7 +24,7 @@ pub(super) struct Asked {
 impl Asked {
     /// Reads the settings from the scenario in a results folder.
     ///
-    /// A missing scenario counts as one that writes all events.
+    /// A missing scenario counts as a scenario that writes all events.
     pub(super) fn of(folder: &Path) -> Self {
         let path = folder.join(SCENARIO);
         match Scenario::load(&path) {
@@ -51,7 +51,7 @@ impl Asked {
         }
     }
 
-    /// Returns the settings of a scenario that this version cannot read.
+    /// Returns the settings of a scenario file that this program version cannot read.
     fn unread(scenario: &Value) -> Self {
         let of = |key: &str| scenario.pointer(&format!("/output/{key}")).cloned();
         let said = ["events", "window", "last"].map(of);
@@ -59,9 +59,9 @@ impl Asked {
         Self { events, window: EVERYWHERE, every: None }
     }
 
-    /// Returns the time window in which both runs write the same kinds of events, s. Returns `None` if there is none.
+    /// Returns the time window in which both runs write the same kinds of events, s, or `None` without a common window.
     ///
-    /// If the windows differ, the result is narrowed by `tolerance`. An event near an edge may be within one window only.
+    /// If the windows differ, the result is narrowed by `tolerance`, because an event near an edge may be within one window only.
     pub(super) fn common(&self, other: &Self, tolerance: f64) -> Option<[f64; 2]> {
         let ([a_from, a_to], [b_from, b_to]) = (self.window, other.window);
         let from = if a_from == b_from { a_from } else { a_from.max(b_from) + tolerance };

@@ -8,15 +8,15 @@ use stickslip_quantity::names::unit;
 use stickslip_run::Real;
 use stickslip_run::frame::{Column, Values, Words};
 
-/// Relative distance below which two times are equal. Rounding differs between k·10 µs and 2k·5 µs.
+/// Relative difference below which two times are equal. Rounding makes k·10 µs and 2k·5 µs differ.
 const SAME_TIME: f64 = 4.0 * f64::EPSILON;
 
-/// Rows of two traces at common times.
+/// Rows of two traces at their common times.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct CommonRows {
-    /// Pairs of row indices: in A, in B.
+    /// Pairs of row indices: first in run A, then in run B.
     pub pairs: Vec<(usize, usize)>,
-    /// Rows of A that coincide with an event. One run may have the state before the event, and the other run the state after it.
+    /// Rows of run A that coincide with an event. One run may have the state before the event, and the other run the state after it.
     pub on_events: HashSet<usize>,
     /// Number of rows omitted because they coincide with an event.
     pub at_events: usize,
@@ -27,27 +27,27 @@ pub struct CommonRows {
 pub struct ChannelDifference {
     /// Name of the channel.
     pub name: String,
-    /// SI unit; empty if the channel has none.
+    /// SI unit; empty if the channel has no unit.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub unit: &'static str,
-    /// Largest difference, in the unit. `None` for words, which are equal or different.
+    /// Largest difference, in the unit of the channel. `None` for words, which are equal or different.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub worst: Option<Real>,
     /// Time of the largest difference, or of the first different word, s. `None` if there is no difference.
     #[serde(rename = "at_s", skip_serializing_if = "Option::is_none")]
     pub at: Option<Real>,
-    /// Largest allowed difference, in the unit. `None` for words.
+    /// Largest allowed difference, in the unit of the channel. `None` for words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub allowed: Option<Real>,
-    /// First time at which the difference exceeds the allowed one, s.
+    /// First time at which the difference exceeds the allowed difference, s.
     #[serde(rename = "first_s", skip_serializing_if = "Option::is_none")]
     pub first: Option<Real>,
-    /// Number of rows with a difference above the allowed one.
+    /// Number of rows with a difference above the allowed difference.
     pub rows: usize,
 }
 
 impl CommonRows {
-    /// Pairs the rows with equal times up to the time `end`, s.
+    /// Pairs the rows of two traces with equal times up to the time `end`, s.
     pub fn new(a: &[f64], b: &[f64], end: f64) -> Self {
         let (mut i, mut j) = (0, 0);
         let mut pairs = Vec::new();
@@ -68,8 +68,8 @@ impl CommonRows {
 
     /// Removes the pairs of rows within `tolerance` (s) of an event, because the two runs may show the states before and after the event.
     ///
-    /// `a` and `b` are the row times of the traces, and `events` are the times of all events. Pairs for which `is_sure` returns true are
-    /// kept.
+    /// `a` and `b` are the row times of the traces, and `events` are the times of all events. Pairs of rows for which `is_sure` returns
+    /// true are kept.
     pub fn told_from_events(
         mut self,
         (a, b): (&[f64], &[f64]),
@@ -90,7 +90,7 @@ impl CommonRows {
         self
     }
 
-    /// Returns the number of rows of A up to the time `end`, s, that B lacks. `a` are the row times of A.
+    /// Returns the number of rows of run A up to the time `end`, s, that run B lacks. `a` are the row times of run A.
     pub(super) fn lone(&self, a: &[f64], end: f64) -> usize {
         let until = a.partition_point(|t| *t <= end * (1.0 + SAME_TIME));
         until.saturating_sub(self.pairs.len() + self.at_events)
@@ -98,12 +98,12 @@ impl CommonRows {
 }
 
 impl ChannelDifference {
-    /// Returns whether no row differs by more than allowed.
+    /// Returns whether no row differs by more than the allowed difference.
     pub fn is_same(&self) -> bool {
         self.rows == 0
     }
 
-    /// Returns the largest difference relative to the allowed one.
+    /// Returns the largest difference divided by the allowed difference.
     pub fn excess(&self) -> f64 {
         let (Some(worst), Some(allowed)) = (self.worst, self.allowed) else { return 0.0 };
         if worst.0 == 0.0 { 0.0 } else { worst.0 / allowed.0 }
@@ -162,7 +162,7 @@ fn numbers(
     ChannelDifference { name: name.to_owned(), unit: unit(name), worst, at, allowed, first, rows: count }
 }
 
-/// Returns |x - y|. The distance is infinite if one value is not finite and the other one differs.
+/// Returns |x - y|. The distance is infinite if one value is not finite and the other value differs.
 pub(super) fn distance(x: f64, y: f64) -> f64 {
     if x == y || (x.is_nan() && y.is_nan()) {
         return 0.0;

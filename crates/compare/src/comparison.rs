@@ -11,14 +11,14 @@ use super::terms::Terms;
 use serde::Serialize;
 use stickslip_run::Real;
 
-/// Comparison of two runs. `--json` prints it in this form.
+/// Comparison of two runs, in the form that `--json` prints.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Comparison {
     /// Overall result.
     pub verdict: Verdict,
     /// The reference run A.
     pub a: Side,
-    /// The run B, which is compared with A.
+    /// The run B, which is compared with the reference.
     pub b: Side,
     /// Tolerances that apply to all channels.
     pub tolerance: Tolerance,
@@ -27,22 +27,22 @@ pub struct Comparison {
     pub until: Real,
     /// Numbers of rows.
     pub rows: Rows,
-    /// Compared fraction of A.
+    /// Compared fraction of run A.
     pub coverage: Coverage,
-    /// Channels of both runs, in the order of A.
+    /// Channels that both runs have, in the order of run A.
     pub channels: Vec<ChannelDifference>,
-    /// Channels of A that B lacks.
+    /// Channels of run A that run B lacks.
     pub channels_missing: Vec<String>,
-    /// Channels of B that A lacks.
+    /// Channels of run B that run A lacks.
     pub channels_extra: Vec<String>,
     /// Differences of the events.
     pub events: EventDifferences,
     /// Differences of the summary values.
     pub figures: FigureDifferences,
-    /// First difference in time.
+    /// First difference of the two runs in time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first: Option<First>,
-    /// What was not compared, and why.
+    /// Notes, for example on different scenarios and on contents that were not compared.
     pub notes: Vec<String>,
 }
 
@@ -52,9 +52,9 @@ pub struct Comparison {
 pub enum Verdict {
     /// The rows and events are byte-identical, and no summary value differs.
     Identical,
-    /// No difference exceeds the allowed one.
+    /// No difference exceeds the allowed difference.
     Equal,
-    /// At least one difference exceeds the allowed one.
+    /// At least one difference exceeds the allowed difference.
     Differs,
 }
 
@@ -77,7 +77,7 @@ pub struct Side {
     pub folder: String,
     /// Status at the end: "done", "stopped" or "interrupted".
     pub status: String,
-    /// Time reached, s.
+    /// Simulated time at the end of the run, s.
     #[serde(rename = "simulated_s")]
     pub end: Real,
     /// Integrator with its tolerance or step, as text.
@@ -91,7 +91,7 @@ pub struct Side {
 /// Tolerances that apply to all channels and events.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {
-    /// Relative to the largest magnitude of a channel.
+    /// Tolerance relative to the largest magnitude of a channel.
     pub relative: Real,
     /// Tolerance of event times, s.
     #[serde(rename = "time_s")]
@@ -107,9 +107,9 @@ pub struct Rows {
     pub a: usize,
     /// Rows of B.
     pub b: usize,
-    /// Compared rows: those with common times.
+    /// Number of compared rows: rows at common times.
     pub common: usize,
-    /// Rows of A that B lacks. Counted only if A is an excerpt, because B must have all of its rows.
+    /// Number of rows of A that B lacks. Counted only if A is an excerpt, because B must have all rows of an excerpt.
     #[serde(skip_serializing_if = "is_none")]
     pub missing: usize,
 }
@@ -134,7 +134,7 @@ impl Comparison {
     /// Compares two runs and returns the comparison with the rows that were compared.
     ///
     /// # Errors
-    /// The runs have no row at a common time, B is an excerpt, or `terms` contains an unknown name or an invalid tolerance.
+    /// Fails if the runs have no row at a common time, B is an excerpt, or `terms` contains an unknown name or an invalid tolerance.
     pub fn new(a: &Results, b: &Results, terms: &Terms) -> Result<(Self, CommonRows), CompareError> {
         if b.is_excerpt() {
             return Err(CompareError::JudgedExcerpt(b.folder.clone()));
@@ -222,7 +222,7 @@ impl Comparison {
         }
     }
 
-    /// Returns a line about the channel whose difference is largest relative to the allowed one.
+    /// Returns a line about the channel with the largest ratio of difference to allowed difference.
     fn farthest(&self) -> String {
         let farthest = self.channels.iter().max_by(|p, q| p.excess().total_cmp(&q.excess()));
         match farthest.and_then(|channel| Some((channel, channel.worst?, channel.allowed?, channel.at?))) {
@@ -238,7 +238,7 @@ impl Comparison {
         }
     }
 
-    /// Returns whether exactly one of the runs stopped itself.
+    /// Returns whether exactly one of the two runs stopped early by itself.
     pub fn one_stopped(&self) -> bool {
         (self.a.status == "stopped") != (self.b.status == "stopped")
     }
@@ -249,7 +249,7 @@ impl Comparison {
             time: event.time,
             what: format!("the event \"{}\" of {} {how}", event.kind, event.source),
         });
-        // An event comes before the channels: the channels differ because of the event.
+        // An event precedes channels at the same time, because the channels differ as a result of the event.
         let all = event.into_iter().chain(self.channels.iter().filter_map(channel));
         all.min_by(|p, q| p.time.0.total_cmp(&q.time.0))
     }
@@ -329,9 +329,9 @@ impl Side {
     }
 }
 
-/// Returns the common rows of two runs, without those at which the runs may show different sides of an event.
+/// Returns the common rows of two runs, without rows at which the runs may show the states before and after an event.
 ///
-/// Such ambiguous rows occur if the integrators or the row times differ, and at the end of the shorter run.
+/// Ambiguous rows at events occur if the integrators or the row times differ, and at the end of the shorter run.
 fn common_rows(a: &Results, b: &Results, until: f64, allowance: &Allowance) -> CommonRows {
     let events = a.events().chain(b.events()).map(|event| event.time).collect();
     let rows = CommonRows::new(a.time(), b.time(), until);

@@ -6,12 +6,12 @@ use serde::Serialize;
 use serde_json::Value;
 use stickslip_run::Real;
 
-/// Compared fraction of A, from 0 to 1.
+/// Compared fraction of run A, from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coverage {
-    /// Time from the first to the last common row, relative to the time that A reached.
+    /// Time from the first to the last common row, divided by the simulated time of run A.
     pub time: Real,
-    /// Rows of A that B has, relative to all rows of A.
+    /// Number of rows of run A that run B has, divided by the number of all rows of run A.
     pub rows: Real,
 }
 

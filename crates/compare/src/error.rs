@@ -10,13 +10,13 @@ pub enum CompareError {
     /// A folder of results cannot be read.
     #[error(transparent)]
     Results(#[from] ResultsError),
-    /// B is an excerpt. Only the reference A can be one.
+    /// Run B is an excerpt, but only the reference A may be an excerpt.
     #[error("{}: is an excerpt of a run; give it as the reference A, not as B", .0.display())]
     JudgedExcerpt(PathBuf),
     /// The runs have no row at a common time.
     #[error("A and B have no row at a common time\n   help: run both scenarios with the same output.every")]
     NoCommonRow,
-    /// Neither run has this name.
+    /// Neither run has a channel, summary value or part of this name.
     #[error("{term} {name}  there is no {what} \"{}\"{}", .name.escape_debug(), advice(.help.as_deref()))]
     UnknownName {
         /// Field of [`Terms`](super::Terms) that contains the name.
@@ -25,7 +25,7 @@ pub enum CompareError {
         what: &'static str,
         /// The unknown name.
         name: String,
-        /// Nearest name, or all names.
+        /// Nearest known name, or all known names.
         help: Option<String>,
     },
     /// An absolute tolerance is invalid.

@@ -7,24 +7,24 @@ use serde::Serialize;
 use std::collections::HashMap;
 use stickslip_run::Real;
 
-/// Differences of two event lists. Events of equal source and kind are compared with each other in order of time.
+/// Differences of two event lists. Events with the same source and kind are compared in order of time.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct EventDifferences {
-    /// Number of compared events of A.
+    /// Number of compared events of run A.
     pub a: usize,
-    /// Number of compared events of B.
+    /// Number of compared events of run B.
     pub b: usize,
-    /// Largest time difference of events that agree, s.
+    /// Largest time difference of events that agree within the tolerance, s.
     #[serde(rename = "worst_s")]
     pub worst: Real,
     /// Allowed time difference, s.
     #[serde(rename = "allowed_s")]
     pub allowed: Real,
-    /// Events in A only, in order of time.
+    /// Events that only run A has, in order of time.
     pub missing: Vec<Lone>,
-    /// Events in B only, in order of time.
+    /// Events that only run B has, in order of time.
     pub extra: Vec<Lone>,
-    /// Events in both lists, farther apart than allowed.
+    /// Events in both lists whose times differ by more than allowed.
     pub moved: Vec<Moved>,
 }
 
@@ -46,7 +46,7 @@ pub struct Moved {
     /// The event in A.
     #[serde(flatten)]
     pub event: Lone,
-    /// Time in B minus time in A, s.
+    /// Time of the event in B minus its time in A, s.
     #[serde(rename = "by_s")]
     pub by: Real,
 }
@@ -75,14 +75,14 @@ pub(super) fn compare(a: &Results, b: &Results, end: f64, allowance: &Allowance)
 
 /// Groups the events by source and kind, in order of first occurrence.
 ///
-/// If one run ends before the other, events at its end are omitted, because it may not have written them.
+/// If one run ends before the other, events at its end are omitted, because this run may not have written them.
 fn tracks<'a>(
     (a, b): (&'a Results, &'a Results),
     ([from, to], end): ([f64; 2], f64),
     allowance: &Allowance,
 ) -> Vec<Track<'a>> {
     let last = if a.end == b.end { f64::INFINITY } else { end - allowance.time };
-    // After thinning, a single different event would shift all later ones.
+    // After thinning of events, a single different event would shift all later events.
     let whole = a.events_until.min(b.events_until);
     let last = if whole.is_finite() { last.min(whole - allowance.time) } else { last };
     let last = last.min(to);

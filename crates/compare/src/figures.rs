@@ -17,27 +17,27 @@ const PARTS: [&str; 3] = ["contacts", "steps", "energy"];
 pub struct FigureDifferences {
     /// Number of compared values.
     pub compared: usize,
-    /// Values that differ by more than allowed.
+    /// Summary values that differ by more than allowed.
     pub differ: Vec<FigureDifference>,
-    /// Values of A that B lacks.
+    /// Names of summary values of run A that run B lacks.
     pub missing: Vec<String>,
-    /// Values of B that A lacks.
+    /// Names of summary values of run B that run A lacks.
     pub extra: Vec<String>,
 }
 
-/// A summary value that differs.
+/// A summary value that differs between two runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FigureDifference {
     /// Name of the value, such as `steps.lengths_m[3]`.
     pub name: String,
-    /// SI unit; empty if the value has none.
+    /// SI unit; empty if the value has no unit.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub unit: &'static str,
     /// Value in A.
     pub a: Value,
     /// Value in B.
     pub b: Value,
-    /// Allowed difference, in the unit. `None` for words.
+    /// Allowed difference, in the unit of the value. `None` for words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub allowed: Option<Real>,
 }
@@ -51,7 +51,7 @@ pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> Figure
         figures_b.iter().map(|(name, value)| (name.as_str(), *value)).collect();
     let has_same_span = a.end == b.end;
     let rows = |results: &Results| results.summary.pointer("/counts/rows").cloned();
-    // Equal numbers of rows do not suffice: the window or the interval may differ.
+    // Equal numbers of rows do not suffice, because the window or the interval may differ.
     let has_same_rows = rows(a) == rows(b) && a.asked.has_same_rows(&b.asked);
     // The table of the steps may be missing in one of the folders.
     let lists = |results: &Results| results.summary.pointer("/steps/lengths_m").is_some();
@@ -78,7 +78,7 @@ pub(super) fn compare(a: &Results, b: &Results, allowance: &Allowance) -> Figure
                 differences.differ.extend(difference(name, first, second, allowance));
             }
             None if has_same_span => differences.missing.push(name.clone()),
-            // The shorter run has fewer steps.
+            // The shorter run has fewer step lengths.
             None => {}
         }
     }
@@ -114,7 +114,7 @@ fn hangs_on_rows(name: &str) -> bool {
 
 /// Returns whether a value assesses other values, such as their error or the settling state.
 ///
-/// Such values change with rounding. The settling state changes only with the integrator or its tolerance.
+/// Values that assess others change with rounding, except for the settling state, which changes only with the integrator or its tolerance.
 fn is_judgement(name: &str, is_same_run: bool) -> bool {
     const OF_STEADY: [&str; 4] = ["from_period", "periods", "error_m", "repeatability_m"];
     (name.starts_with("steps.settling.") && !(is_same_run && name == "steps.settling.state"))
@@ -126,7 +126,7 @@ fn is_sentence(name: &str) -> bool {
     name.starts_with("steps.why[")
 }
 
-/// Returns whether a value depends on the initial state only, and so not on the length of the run.
+/// Returns whether a value depends only on the initial state, so that it does not depend on the length of the run.
 fn is_of_start(name: &str) -> bool {
     let parts: Vec<&str> = name.split('.').collect();
     matches!(parts.as_slice(), ["contacts", _, "count" | "gross_slip_displacement_m"])
@@ -145,7 +145,7 @@ fn figures(results: &Results) -> Vec<(String, &Value)> {
             collect(part.to_owned(), value, &mut leaves);
         }
     }
-    // Scales follow from values that are compared.
+    // Scales are not compared, because they follow from values that are compared.
     leaves.retain(|(name, _)| !name.contains(".scales."));
     leaves
 }

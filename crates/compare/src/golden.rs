@@ -1,7 +1,7 @@
 //! Reference results ("goldens") for regression tests of scenarios.
 //!
-//! A golden is a folder with an excerpt of results, which [`compare`](crate) reads like other results. It also contains the recorded
-//! scenario and a [`Recipe`]. With the recipe, the current scenario file is run again for the comparison.
+//! A golden is a folder with an excerpt of results, which [`compare`](crate) reads like other results. The folder also contains the
+//! recorded scenario and a [`Recipe`]. With the recipe, the current scenario file is run again for the comparison.
 
 mod excerpt;
 mod log;
@@ -21,12 +21,12 @@ use thiserror::Error;
 
 /// File that identifies a folder as a golden.
 const RECIPE: &str = "recipe.json";
-/// Format number that this version writes and reads.
+/// Format number of recipe files that this program version writes and reads.
 const FORMAT: u32 = 1;
 /// Plot of the channel with the largest difference.
 pub const PICTURE: &str = "difference.png";
 
-/// Instructions for repeating the run of a golden.
+/// Recipe: instructions for repeating the run of a golden.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Recipe {
@@ -34,7 +34,7 @@ pub struct Recipe {
     pub format: u32,
     /// Path of the scenario file, relative to the folder of all goldens.
     pub file: PathBuf,
-    /// Overrides, in the notation of `run --set`.
+    /// Overrides of the scenario, in the notation of `run --set`.
     #[serde(default)]
     pub set: Vec<String>,
     /// Channels, summary values, bodies or contacts that are not compared.
@@ -55,7 +55,7 @@ pub struct Golden {
     pub name: String,
     /// Folder of the golden.
     pub folder: PathBuf,
-    /// Instructions for repeating its run.
+    /// Instructions for repeating the run of the golden.
     pub recipe: Recipe,
 }
 
@@ -75,7 +75,7 @@ pub enum GoldenError {
         /// Suggestion of a similar name.
         help: Option<String>,
     },
-    /// A golden of this name exists already.
+    /// A golden of the same name exists already.
     #[error("{}: exists already\n   help: stickslip golden accept {} {name} --reason \"why it changes\"", .root.join(.name).display(), .root.display())]
     Exists {
         /// Folder of all goldens.
@@ -86,7 +86,7 @@ pub enum GoldenError {
     /// The scenario file of a golden does not exist.
     #[error("gone: {} does not exist", .0.display())]
     Gone(PathBuf),
-    /// The files have a format that this version does not read.
+    /// The files have a format that this program version does not read.
     #[error("damaged: {} has format {found}, this version reads {FORMAT}: record it again", .path.display())]
     Format {
         /// Path of the file.
@@ -122,7 +122,7 @@ pub enum GoldenError {
 }
 
 impl Goldens {
-    /// Returns the goldens of a folder. The folder need not exist.
+    /// Returns the goldens of a folder, which need not exist.
     #[must_use]
     pub fn new(root: &Path) -> Self {
         Self { root: root.to_owned() }
@@ -131,9 +131,9 @@ impl Goldens {
     /// Returns the sorted names of the wanted goldens, or of all goldens if `wanted` is empty.
     ///
     /// # Errors
-    /// The folder contains no golden, or no golden has one of the names.
+    /// Fails if the folder contains no golden, or no golden has one of the names.
     pub fn names(&self, wanted: &[String]) -> Result<Vec<String>, GoldenError> {
-        // A folder without a recipe is a damaged golden.
+        // A folder without a recipe is listed, because it is a damaged golden.
         let is_golden = |name: &String| !name.starts_with('.') && self.root.join(name).is_dir();
         let entries = fs::read_dir(&self.root).into_iter().flatten().flatten();
         let mut names: Vec<String> =
@@ -151,10 +151,10 @@ impl Goldens {
         Ok(names)
     }
 
-    /// Returns a new golden for a scenario file. Nothing is written.
+    /// Returns a new golden for a scenario file, without writing any file.
     ///
     /// # Errors
-    /// A golden of this name exists, or a path cannot be resolved.
+    /// Fails if a golden of this name exists, or a path cannot be resolved.
     pub fn plan(&self, file: &Path, set: Vec<String>, ignore: Vec<String>) -> Result<Golden, GoldenError> {
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let folder = self.root.join(&name);
@@ -170,7 +170,7 @@ impl Goldens {
     /// Reads the recipe of a golden.
     ///
     /// # Errors
-    /// The recipe cannot be read or has another format.
+    /// Fails if the recipe cannot be read or has another format.
     pub fn golden(&self, name: &str) -> Result<Golden, GoldenError> {
         let folder = self.root.join(name);
         let path = folder.join(RECIPE);
@@ -188,7 +188,7 @@ impl Goldens {
     /// Adds a line to the log with date, version, names of the goldens and reason.
     ///
     /// # Errors
-    /// The reason is too short, or the log cannot be written.
+    /// Fails if the reason is too short, or the log cannot be written.
     pub fn log(&self, names: &[String], reason: &str) -> Result<(), GoldenError> {
         log::append(&self.root, names, &log::checked(reason)?)
     }
@@ -196,7 +196,7 @@ impl Goldens {
     /// Checks that a reason has at least eight letters.
     ///
     /// # Errors
-    /// The reason is too short.
+    /// Fails if the reason is too short.
     pub fn check_reason(reason: &str) -> Result<(), GoldenError> {
         log::checked(reason).map(drop)
     }
@@ -206,7 +206,7 @@ impl Golden {
     /// Prepares a run of the current scenario file with the overrides of the recipe and without plots. Results are written to `out`.
     ///
     /// # Errors
-    /// The file does not exist or is invalid.
+    /// Fails if the file does not exist or is invalid.
     pub fn job(&self, out: &Path) -> Result<Job, GoldenError> {
         let root = self.folder.parent().unwrap_or(Path::new(""));
         let file = real(root)
@@ -224,7 +224,7 @@ impl Golden {
 
     /// Returns the changes of the scenario since the recording: each key with its old and new value.
     ///
-    /// The recorded scenario is read by this version. Therefore new defaults do not count as changes.
+    /// This program version reads the recorded scenario, so that new default values do not count as changes.
     #[must_use]
     pub fn changes(&self, job: &Job) -> Vec<String> {
         let recorded = self.folder.join(SCENARIO);
@@ -243,7 +243,7 @@ impl Golden {
     /// Checks that the recorded scenario has the given SHA-256.
     ///
     /// # Errors
-    /// The recorded scenario was changed or cannot be read.
+    /// Fails if the recorded scenario was changed or cannot be read.
     pub fn check_scenario(&self, sha256: &str) -> Result<(), GoldenError> {
         let path = self.folder.join(SCENARIO);
         let message = match guard::text(&path) {
@@ -257,7 +257,7 @@ impl Golden {
     /// Writes an excerpt of results as the golden and replaces the previous one.
     ///
     /// # Errors
-    /// The results cannot be read, or the golden cannot be written.
+    /// Fails if the results cannot be read, or the golden cannot be written.
     pub fn write(&self, results: &Path) -> Result<(), GoldenError> {
         let file = |source| GoldenError::File { path: self.folder.clone(), source };
         let mut folder = Folder::make(&self.folder).map_err(file)?;
@@ -297,7 +297,7 @@ fn differences(key: &str, was: Option<&Value>, is: Option<&Value>, found: &mut V
 
 /// Returns an absolute path in which symbolic links are resolved, as far as the path exists.
 ///
-/// The last component of a file path is not resolved. Resolving first makes `..` refer to the parent of a link's target.
+/// The last component of a file path is not resolved. Links are resolved first, so that `..` refers to the parent of a link's target.
 fn real(path: &Path) -> io::Result<PathBuf> {
     let path = std::path::absolute(path)?;
     let mut ancestors = path.ancestors().skip(usize::from(path.is_file()));
@@ -318,7 +318,7 @@ fn plain(path: &Path) -> PathBuf {
     parts.iter().collect()
 }
 
-/// Returns the path of a file relative to a folder. Both arguments are absolute.
+/// Returns the path of a file relative to a folder. Both arguments are absolute paths.
 fn relative(folder: &Path, file: &Path) -> PathBuf {
     let (folder, file) = (plain(folder), plain(file));
     let common = folder.components().zip(file.components()).take_while(|(a, b)| a == b).count();

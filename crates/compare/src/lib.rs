@@ -2,8 +2,8 @@
 //!
 //! In reading order:
 //!
-//! * [`Terms`] – what the user allows; [`Results`] – the contents of a folder, with the consistency checks of `soundness`;
-//! * `allowance` with `scales` – allowed differences;
+//! * [`Terms`] – the allowed differences; [`Results`] – the contents of a folder, with the consistency checks of `soundness`;
+//! * `allowance` – tolerance of each channel and summary value; `scales` – natural scales of the model;
 //! * [`ChannelDifference`], [`EventDifferences`] with `alignment`, [`FigureDifferences`] (summary values);
 //! * [`Coverage`] – compared fraction of a run; [`Comparison`] – the overall result; [`CompareError`];
 //! * [`golden`] – reference results for regression tests.

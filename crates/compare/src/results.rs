@@ -14,7 +14,7 @@ use stickslip_run::rows::Rows;
 use stickslip_run::synopsis::{Synopsis, SynopsisError};
 use thiserror::Error;
 
-/// Name of the step lengths among the summary values, and the index of their column in [`columns::STEPS`].
+/// Name of the step lengths among the summary values, and index of the step length column in [`columns::STEPS`].
 pub(crate) const LENGTHS: &str = "lengths_m";
 const LENGTH: usize = 3;
 
@@ -27,19 +27,19 @@ pub struct Results {
     /// Contents of `summary.json`.
     pub summary: Value,
     events: Frame,
-    /// SHA-256 of the tables of rows and of events.
+    /// SHA-256 of the table of rows and of the table of events.
     hashes: [Option<String>; 2],
-    /// Time reached, s.
+    /// Simulated time at the end of the run, s.
     pub end: f64,
     /// Integrator of the run.
     pub stepper: Stepper,
-    /// Whether the tables contain the whole run or a part of it.
+    /// Whether the tables contain the whole run, its beginning or an excerpt.
     extent: Extent,
     /// Time up to which all requested events were written, s. Infinite if no events were thinned.
     pub events_until: f64,
-    /// Settings of the scenario for the written events and rows.
+    /// Settings of the scenario that select the written events and rows.
     pub(super) asked: Asked,
-    /// Names of tables that the run wrote and that are missing in the folder. They are not compared.
+    /// Names of tables that the run wrote but that are missing in the folder. Missing tables are not compared.
     pub absent: Vec<String>,
 }
 
@@ -109,7 +109,7 @@ impl Results {
     /// Reads a folder of results and checks that its files are consistent.
     ///
     /// # Errors
-    /// The folder contains no results, a table or the summary is unreadable or incomplete, or the files contradict each other.
+    /// Fails if the folder contains no results, a table or the summary is unreadable or incomplete, or the files contradict each other.
     pub fn read(folder: &Path) -> Result<Self, ResultsError> {
         let synopsis = Synopsis::read(folder)?;
         let end = synopsis.number("/simulated_s").ok_or_else(|| synopsis.lacks("simulated_s"))?;
@@ -117,7 +117,7 @@ impl Results {
         let extent = Extent::of(&synopsis);
         let tables = [synopsis.table(TRACE)?, synopsis.table(EVENTS)?];
         let (trace, events) = (Frame::read(&tables[0])?, Frame::read(&tables[1])?);
-        // For an excerpt, the hashes of the complete tables of the run are used.
+        // For an excerpt, the hashes of the complete tables of the recorded run are used.
         let hashes = match synopsis.summary.get("excerpt_of") {
             Some(of) => [TRACE, EVENTS].map(|name| Some(of.get(name)?.as_str()?.to_owned())),
             None => tables.map(|table| table.seal.map(|seal| seal.sha256)),
@@ -128,7 +128,7 @@ impl Results {
         let (mut absent, mut lengths) = (Vec::new(), None);
         for name in others {
             let table = synopsis.table(name)?;
-            // Tables that are not compared may be missing. If they exist, their seals are checked.
+            // Tables that are not compared may be missing. If such a table exists, its checksum is verified.
             if table.path.symlink_metadata().is_err() {
                 absent.push(name.to_owned());
             } else if name == STEPS {
@@ -141,7 +141,7 @@ impl Results {
         let events_until = synopsis.number("/counts/events_whole_until_s").unwrap_or(f64::INFINITY);
         let asked = Asked::of(folder);
         let mut summary = synopsis.summary;
-        // The step lengths are compared under the name that they have in a summary.
+        // The step lengths from the table are compared under the name that they have in a summary.
         if let (Some(lengths), Some(Value::Object(steps))) = (lengths, summary.get_mut("steps")) {
             steps.entry(LENGTHS).or_insert(lengths.into());
         }
@@ -185,7 +185,7 @@ impl Results {
         &self.hashes
     }
 
-    /// Returns whether the tables of rows and events are byte-identical to those of other results.
+    /// Returns whether the tables of rows and events are byte-identical to the tables of other results.
     pub fn has_tables_of(&self, other: &Self) -> bool {
         self.hashes == other.hashes && self.hashes.iter().all(Option::is_some)
     }
@@ -211,7 +211,7 @@ impl Results {
         })
     }
 
-    /// Returns a string of the summary by its JSON pointer, or an empty string if it does not exist.
+    /// Returns a string of the summary by its JSON pointer, or an empty string if the summary lacks the string.
     pub fn text(&self, pointer: &str) -> &str {
         self.summary.pointer(pointer).and_then(Value::as_str).unwrap_or_default()
     }

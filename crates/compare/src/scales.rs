@@ -7,15 +7,15 @@ use stickslip_quantity::names::{owner, unit};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Scales {
     contacts: Vec<(String, Scale)>,
-    /// Smallest scales of all contacts.
+    /// Smallest natural scales of all contacts.
     scene: Scale,
-    /// Energy throughput of the model, J.
+    /// Larger energy throughput of the two runs, J.
     throughput: f64,
-    /// Largest step length, m.
+    /// Largest step length of the two runs, m.
     step: f64,
 }
 
-/// Natural scales u_c, μF_N, u_c ω and μF_N u_c, in SI units.
+/// Natural scales of displacement u_c, force μF_N, velocity u_c ω and work μF_N u_c, in SI units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Scale {
     displacement: f64,
@@ -25,7 +25,7 @@ struct Scale {
 }
 
 impl Scales {
-    /// Returns the larger scales of two runs. The scales of a contact are those of run `a`.
+    /// Returns the larger throughput and step length of two runs. The natural scales of contacts are taken from run `a`.
     pub(super) fn new(a: &Value, b: &Value) -> Self {
         let mut scales = Self::default();
         for summary in [a, b] {
@@ -42,14 +42,14 @@ impl Scales {
                 }
             }
         }
-        // A contact without friction has no scale.
+        // A contact without friction has no natural scale.
         let least = |x: f64, y: f64| if x > 0.0 && y > 0.0 { x.min(y) } else { x.max(y) };
         let all = scales.contacts.iter().map(|(_, scale)| *scale);
         scales.scene = all.fold(Scale::default(), |smallest, scale| smallest.with(scale, least));
         scales
     }
 
-    /// Returns the natural scale of a channel or summary value, in its unit. Returns 0 if there is none.
+    /// Returns the natural scale of a channel or summary value, in its unit. Returns 0 without a natural scale.
     pub(super) fn natural(&self, name: &str) -> f64 {
         let own = self.contacts.iter().find(|(contact, _)| contact == owner(name));
         let scale = own.map_or(self.scene, |(_, scale)| *scale);
@@ -64,8 +64,8 @@ impl Scales {
 
     /// Returns the reference value for the relative tolerance of a channel or summary value.
     ///
-    /// It is the `largest` magnitude. For small differences of larger numbers, such as energy errors, it is the scale of the larger
-    /// numbers.
+    /// The reference value is the `largest` magnitude. For small differences of larger numbers, such as energy errors, the reference value
+    /// is the scale of the larger numbers.
     pub(super) fn nominal(&self, name: &str, largest: f64) -> f64 {
         match (owner(name), unit(name)) {
             ("energy", "J") if name.ends_with("error_J") => self.throughput,

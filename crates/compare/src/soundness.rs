@@ -1,7 +1,7 @@
 //! Checks that the files of a results folder are consistent.
 //!
-//! A comparison of damaged results could miss differences. The checks do not rely on the seals of the tables, because a seal can be changed
-//! together with its table.
+//! A comparison of damaged results could miss differences. The checks do not rely on the checksums of the tables, because a checksum can be
+//! changed together with its table.
 
 use super::results::ResultsError;
 use serde_json::Value;
@@ -13,10 +13,10 @@ use stickslip_run::guard;
 use stickslip_run::hash;
 use stickslip_run::synopsis::Synopsis;
 
-/// Tolerance for row times relative to the interval, and for durations relative to themselves. It covers rounding.
+/// Tolerance for row times relative to the interval, and relative tolerance for durations. Both tolerances only allow for rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Part of a run that its tables contain.
+/// Part of a run that the tables of a results folder contain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Extent {
     /// The whole run.
@@ -42,7 +42,7 @@ pub(super) struct Soundness<'a> {
     pub(super) folder: PathBuf,
     pub(super) synopsis: &'a Synopsis,
     pub(super) extent: Extent,
-    /// Time reached, s.
+    /// Simulated time at the end of the run, s.
     pub(super) end: f64,
 }
 
@@ -50,7 +50,7 @@ impl Soundness<'_> {
     /// Checks the tables against the summary and the scenario of the folder.
     ///
     /// # Errors
-    /// The files contradict each other.
+    /// Fails if the files contradict each other.
     pub(super) fn check(&self, trace: &Frame, events: &Frame) -> Result<(), ResultsError> {
         if self.end < 0.0 {
             return Err(self.summary(format!("simulated_s: expected a time of 0 or more, got {}", self.end)));
@@ -77,7 +77,7 @@ impl Soundness<'_> {
         if if is_whole { rows as u64 != counted } else { rows as u64 > counted } {
             return Err(self.summary(format!("counts.rows is {counted}, and {TRACE} has {rows} rows")));
         }
-        // Integrators with a fixed step do not detect all events, so their count is not checked.
+        // Integrators with a fixed step do not detect all events, so the number of events is not checked.
         if is_whole && self.synopsis.text("/stepper/name") == "event" {
             let written = self.synopsis.count("/counts/events_written");
             let counted = written.map_or_else(|| count("/counts/events", "counts.events"), Ok)?;
@@ -89,7 +89,7 @@ impl Soundness<'_> {
         Ok(())
     }
 
-    /// Returns the times of a table. They must be finite, ascending and not after the end of the run.
+    /// Returns the times of a table. The times must be finite, ascending and not after the end of the run.
     fn times<'t>(&self, name: &'static str, table: &'t Frame) -> Result<&'t [f64], ResultsError> {
         let lacks = ResultsError::NoColumn { path: self.folder.join(name), column: "time_s" };
         let times = table.numbers("time_s").ok_or(lacks)?;
@@ -145,7 +145,7 @@ impl Soundness<'_> {
         Ok(())
     }
 
-    /// Checks that the scenario has the recorded hash and that the rows have the times it requests.
+    /// Checks that the scenario has the recorded hash and that the rows have the times requested by the scenario.
     fn check_scenario(&self, rows: &[f64]) -> Result<(), ResultsError> {
         let path = self.folder.join(SCENARIO);
         let read = |source| ResultsError::Read { path: path.clone(), source };
@@ -159,7 +159,7 @@ impl Soundness<'_> {
         }
         let scenario = guard::json(&path).map_err(read)?;
         self.check_plan(&scenario).map_err(|message| ResultsError::Unsound { path, line: None, message })?;
-        // Unknown keys of later versions may change the row times.
+        // Unknown keys of later program versions may change the row times.
         let is_known = |key: &String| {
             const KNOWN: [&str; 8] =
                 ["every", "channels", "springs", "memory", "fields", "events", "float", "states"];
@@ -171,7 +171,7 @@ impl Soundness<'_> {
         self.check_grid(rows, scenario.pointer("/output/every").and_then(Value::as_f64))
     }
 
-    /// Checks that the summary belongs to this scenario: end time, contacts and integrator.
+    /// Checks that the summary belongs to the scenario: end time, contacts and integrator.
     fn check_plan(&self, scenario: &Value) -> Result<(), String> {
         let number = |pointer: &str| scenario.pointer(pointer).and_then(Value::as_f64);
         let status = self.synopsis.text("/status");
@@ -193,13 +193,13 @@ impl Soundness<'_> {
         let name = self.synopsis.text("/stepper/name");
         let taken = ["/stepper/tolerance", "/stepper/step_s"].map(|pointer| self.synopsis.number(pointer));
         let asked = match scenario.pointer("/run/stepper").and_then(|stepper| stepper.get(name)) {
-            // The summary has the time step, a whole fraction of the frame that depends on the model.
+            // The summary contains the time step, which is a whole fraction of the frame length and depends on the model.
             Some(frames) if name == "frames" => {
                 let length = frames.get("length").and_then(Value::as_f64);
                 [None, taken[1].filter(|step| length.is_some_and(|length| is_count(length / step)))]
             }
             Some(_) => ["tolerance", "step"].map(|key| number(&format!("/run/stepper/{name}/{key}"))),
-            // If nothing moves freely, the event-driven integrator replaces the other ones.
+            // If nothing moves freely, the event-driven integrator replaces the other integrators.
             None if name == "event" => [Some(WALK_TOLERANCE), None],
             None => [None; 2],
         };
@@ -216,7 +216,7 @@ impl Soundness<'_> {
         Ok(())
     }
 
-    /// Checks that there is a row at every multiple of the interval and one at the end.
+    /// Checks that the table has a row at every multiple of the interval and a row at the end.
     fn check_grid(&self, rows: &[f64], every: Option<f64>) -> Result<(), ResultsError> {
         let every = every.unwrap_or(f64::INFINITY);
         let place = |row: usize| if row == 0 { 0.0 } else { row as f64 * every };
@@ -229,7 +229,7 @@ impl Soundness<'_> {
             }
         }
         let next = place(others.len());
-        // A run that stopped on a multiple of the interval has already written its row.
+        // A run that stopped at a multiple of the interval has already written the row of this multiple.
         if *last > next + ROUNDING * every {
             let message = format!("time_s: expected a row at {next:?} by output.every, got {last:?}");
             return Err(self.table(TRACE, others.len(), message));
@@ -246,7 +246,7 @@ impl Soundness<'_> {
     }
 }
 
-/// Returns the planned end of a run from its resolved scenario, s. Returns `None` if it does not follow from the duration or from the
+/// Returns the planned end of a run from its resolved scenario, s. Returns `None` if the end follows neither from the duration nor from the
 /// number of cycles.
 fn planned(scenario: &Value) -> Option<f64> {
     let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_f64);

@@ -1,4 +1,4 @@
-//! Writes the output of a command to stdout and its messages to stderr.
+//! Writes the output of a command to stdout and messages about it to stderr.
 
 use crate::verdict::Verdict;
 use crate::visible::{Spelling, visible};
@@ -57,7 +57,7 @@ fn keep(result: io::Result<()>) {
     if let Err(error) = result
         && error.kind() != ErrorKind::BrokenPipe
     {
-        // `set` fails after the first error, so the first error is kept.
+        // The first error is kept, because `set` fails for later errors.
         let _ = LOST.set(error);
     }
 }

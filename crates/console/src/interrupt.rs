@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use stickslip_run::Watcher;
 
-/// Time after the first signal during which further signals are ignored. A shell may send one signal both to the process and to its group.
+/// Time after the first signal during which further signals are ignored. A shell may send a signal both to the process and to its group.
 const ONE_WISH: Duration = Duration::from_secs(1);
 
 /// Flag that is raised when the user interrupts the program.
@@ -21,7 +21,7 @@ impl Interrupt {
     pub fn install() -> Self {
         let interrupt = Self::default();
         let flag = Arc::clone(&interrupt.0);
-        // If no handler can be installed, a signal ends the program immediately; the run itself is possible.
+        // If no handler can be installed, a signal ends the program immediately. Runs are possible nevertheless.
         let mut first: Option<Instant> = None;
         let _ = ctrlc::set_handler(move || {
             flag.store(true, Ordering::Relaxed);
@@ -34,11 +34,11 @@ impl Interrupt {
         interrupt
     }
 
-    /// Also raises the flag within the signal handler itself. On a busy machine, the thread that waits for signals may be scheduled late.
+    /// Lets the signal handler itself raise the flag, too. On a busy machine, the thread that waits for signals may be scheduled late.
     fn raise_where_signals_arrive(&self) {
         #[cfg(unix)]
         for signal in [signal_hook::consts::SIGINT, signal_hook::consts::SIGTERM] {
-            // If this fails, the flag is raised by the waiting thread, slightly later.
+            // If the registration fails, the waiting thread raises the flag slightly later.
             let _ = signal_hook::flag::register(signal, Arc::clone(&self.0));
         }
     }
@@ -51,10 +51,10 @@ impl Interrupt {
 
 /// Ignores the signal SIGXFSZ, so that a write beyond the file size limit (`ulimit -f`) returns an error.
 ///
-/// Without this function, such a write would end the program and leave unpublished files behind.
+/// Without this function, such a write would end the program and leave temporary files behind.
 pub fn outlive_file_limits() {
     #[cfg(unix)]
-    // If this fails, the signal ends the program; the run itself is possible.
+    // If the registration fails, the signal ends the program. Runs are possible nevertheless.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
 }
 

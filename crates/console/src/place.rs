@@ -6,7 +6,7 @@ use stickslip_run::complaint::words;
 use stickslip_run::folder::Folder;
 use thiserror::Error;
 
-/// Disk space reserved in advance, in bytes. It suffices for a curve of a few hundred points with its plot.
+/// Disk space reserved in advance, in bytes. The space suffices for the results of a curve with a few hundred points and its plot.
 const RESERVE: usize = 1 << 18;
 
 /// Error for a folder that cannot be written to.

@@ -18,16 +18,16 @@ pub struct Progress {
     by_lines: bool,
 }
 
-/// Progress bar of one run. It also reports an interrupt to the run.
+/// Progress bar of one run. As the watcher of the run, the bar also stops the run on an interrupt.
 pub struct Bar<'a> {
     bar: ProgressBar,
-    /// Time at which the run starts, s. The bar does not move below it.
+    /// Time at which the run starts, s. The bar never shows an earlier time.
     from: f64,
     duration: f64,
     interrupt: &'a Interrupt,
 }
 
-/// Line that counts completed items. It also reports an interrupt.
+/// Line that counts completed items. As a watcher, the counter also stops the work on an interrupt.
 pub struct Counter<'a> {
     bar: ProgressBar,
     interrupt: &'a Interrupt,
@@ -50,21 +50,21 @@ impl Drop for Counter<'_> {
 }
 
 impl Progress {
-    /// Shows progress bars if they are wanted and stderr is a terminal.
+    /// Creates the display of progress. Bars are shown if they are wanted and stderr is a terminal.
     pub fn new(wanted: bool) -> Self {
         let shown = wanted && std::io::stderr().is_terminal();
         let target = if shown { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         Self { bars: MultiProgress::with_draw_target(target), by_lines: wanted && !shown }
     }
 
-    /// Prints a line to stderr if progress is wanted and no bars are shown.
+    /// Prints a line about progress to stderr if progress is wanted and no bars are shown.
     pub fn tell(&self, line: Arguments<'_>) {
         if self.by_lines {
             complain(line);
         }
     }
 
-    /// Adds a bar for a run over the times `[from, duration]`, s. The bar begins at time 0.
+    /// Adds a bar for a run from the time `from` to `duration`, s. The start of the bar is time 0.
     pub fn start<'a>(&self, name: &str, [from, duration]: [f64; 2], interrupt: &'a Interrupt) -> Bar<'a> {
         let bar = self.bars.add(ProgressBar::new(TICKS));
         bar.set_position(ticks(from, duration));
@@ -95,7 +95,7 @@ impl Progress {
         Counter { bar, interrupt }
     }
 
-    /// Hides the bars while `act` runs and returns its value.
+    /// Hides the bars while the function `act` runs, and returns the value of `act`.
     pub fn aside<T>(&self, act: impl FnOnce() -> T) -> T {
         self.bars.suspend(act)
     }

@@ -1,6 +1,6 @@
 //! Exit codes of the commands.
 
-/// Outcome of a command. If a command does several tasks, the largest outcome counts.
+/// Outcome of a command. If a command performs several tasks, the largest outcome is its exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// Everything succeeded.

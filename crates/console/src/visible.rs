@@ -14,7 +14,7 @@ pub enum Spelling {
 
 /// Returns a text in which control characters, invisible characters and characters that change the writing direction are escaped.
 ///
-/// Line ends are kept. Names and texts from files may contain such characters.
+/// Line ends are kept. Escaping is necessary because names and texts from files may contain such characters.
 pub fn visible(text: &str, spelling: Spelling) -> Cow<'_, str> {
     if !text.contains(is_obeyed) {
         return Cow::Borrowed(text);

@@ -1,10 +1,10 @@
 //! Memory curve: the exact slip memory of a contact as a piecewise linear function.
 //!
-//! All springs of equal height h have the same history. The slip memory is therefore one function p(h), 0 ≤ h ≤ d, the rest position
-//! of springs at height h. Their stretch is u - p(h). The apex (d, u) is the current point. Friction limits the rest positions to the
-//! wedge |p-u| ≤ κ(d-h). The two sides of the wedge, p = u - σκ(d-h) with direction σ = ±1, are the limit lines. When the apex moves,
-//! a limit line shifts the part of the curve that would be outside the wedge. No piece is steeper than κ, so this part always begins
-//! at the edge of the contact. A stack of knots (h, p) represents the curve.
+//! All springs of equal height h have the same history. The slip memory is therefore one function p(h), 0 ≤ h ≤ d, the rest position of
+//! springs at height h. Their stretch is u - p(h). The apex (d, u) is the current point. Friction limits the rest positions to the wedge
+//! |p-u| ≤ κ(d-h). The two sides of the wedge, p = u - σκ(d-h) with direction σ = ±1, are the limit lines. When the apex moves, a limit
+//! line shifts the part of the curve that would be outside the wedge. No piece is steeper than κ, so this part always begins at the edge of
+//! the contact. A stack of breakpoints (h, p) represents the curve.
 //!
 //! The curve corresponds to the reversal memory of a Preisach or Prandtl–Ishlinskii model. Each reversal also has a height, because
 //! the normal load changes the friction limit of all springs.
@@ -46,22 +46,22 @@ use sweep::Told;
 /// Exact slip memory of a contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Knots from the centre to the edge; the last one is the apex. Empty for an open contact.
+    /// Breakpoints from the centre to the edge; the last one is the apex. Empty for an open contact.
     knots: Vec<Knot>,
     /// Current indentation and displacement.
     apex: Apex,
     front: Front,
-    /// Slopes at which collinear growth may be merged into the last piece.
+    /// Range of slopes at which further growth of the contact is merged into the last piece.
     range: SlopeRange,
-    /// Largest number of knots.
+    /// Largest number of breakpoints.
     capacity: usize,
     merged: Merged,
 }
 
-/// Accumulated error due to the limited number of knots.
+/// Accumulated error due to the limited number of breakpoints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Merged {
-    /// Number of removed knots.
+    /// Number of breakpoints that were removed from the memory curve.
     pub knots: u64,
     /// Upper bound of the error of F_x, N.
     pub force: f64,
@@ -70,9 +70,9 @@ pub struct Merged {
 }
 
 impl Curve {
-    /// Default capacity. A free decay adds two knots per period.
+    /// Default limit of the number of breakpoints. A freely decaying oscillation adds two breakpoints per period.
     pub const DEFAULT_CAPACITY: usize = 16_384;
-    /// Number of knots that are allocated initially.
+    /// Number of breakpoints that are allocated initially.
     const ROOM: usize = 256;
     /// Smallest capacity.
     const LEAST_CAPACITY: usize = 8;
@@ -82,7 +82,7 @@ impl Curve {
         Self::with_capacity(law, at, Self::DEFAULT_CAPACITY)
     }
 
-    /// Creates the memory of an untouched contact with a given capacity (at least 8 knots).
+    /// Creates the memory of an untouched contact with a given capacity (at least 8 breakpoints).
     pub fn with_capacity(law: &Interface, at: Apex, capacity: usize) -> Self {
         let capacity = capacity.max(Self::LEAST_CAPACITY);
         let mut curve = Self {
@@ -123,7 +123,7 @@ impl Curve {
         (self.capacity, self.merged) = (*capacity, *merged);
     }
 
-    /// Limits the number of knots (at least 8). Excess knots with the smallest effect are removed, and their error is recorded.
+    /// Limits the number of breakpoints (at least 8). Excess breakpoints with the smallest effect are removed, and their error is recorded.
     pub fn bound(&mut self, law: &Interface, capacity: usize) {
         self.capacity = capacity.max(Self::LEAST_CAPACITY);
         while self.knots.len() > self.capacity {
@@ -143,22 +143,22 @@ impl Curve {
         self.knots.iter_mut().for_each(|knot| knot.p += by);
     }
 
-    /// Returns the number of knots.
+    /// Returns the number of breakpoints.
     pub fn knot_count(&self) -> usize {
         self.knots.len()
     }
 
-    /// Returns the knots (h, p) from the centre to the apex, m.
+    /// Returns the breakpoints (h, p) from the centre to the apex, m.
     pub fn knots(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.knots.iter().map(|k| (k.h, k.p))
     }
 
-    /// Returns the heights of the knots from index `place` on, counted from the centre, m.
+    /// Returns the heights of the breakpoints from index `place` on, counted from the centre, m.
     pub fn heights_from(&self, place: usize) -> impl Iterator<Item = f64> + '_ {
         self.knots.get(place..).unwrap_or_default().iter().map(|k| k.h)
     }
 
-    /// Returns the index of the first knot above a height (m), or the number of knots if there is none.
+    /// Returns the index of the first breakpoint above a height (m), or the number of breakpoints if there is none.
     pub fn above(&self, height: f64) -> usize {
         self.knots.partition_point(|knot| knot.h <= height)
     }
@@ -168,7 +168,7 @@ impl Curve {
         self.knots.windows(2).map(|pair| [pair[0].h, pair[1].h, pair[1].slope, pair[1].gain])
     }
 
-    /// Returns the accumulated error due to the limited number of knots.
+    /// Returns the accumulated error due to the limited number of breakpoints.
     pub fn merged(&self) -> Merged {
         self.merged
     }
@@ -188,7 +188,7 @@ impl Curve {
         self.front.zone(law, self.apex.d).0
     }
 
-    /// Returns the stick radius, m: all springs inside stick.
+    /// Returns the stick radius, m; all springs inside this radius stick.
     pub fn stick_radius(&self, law: &Interface) -> f64 {
         self.front.zone(law, self.apex.d).1
     }
@@ -201,9 +201,9 @@ impl Curve {
         Some(cut::anchor(&self.knots, h))
     }
 
-    /// Returns the distance u - p of an apex from the curve at its own height, m, and the slope dp/dh there.
+    /// Returns the distance u - p between a point (d, u) and the memory curve at h = d, m, and the slope dp/dh there.
     ///
-    /// Returns `None` for an open contact and beyond the end of the curve.
+    /// Returns `None` for an open contact and for d above the indentation of the curve.
     pub fn beside(&self, at: Apex) -> Option<[f64; 2]> {
         let inside = self.knots.len() > 1 && at.d <= self.apex.d;
         inside.then(|| {
@@ -232,8 +232,8 @@ impl Curve {
 
     /// Returns the friction work of a straight path that [`Branch::friction_power`] does not contain, J.
     ///
-    /// The curve stores a curved growth path as chords. When a later path erases them, the difference between the path and its chords
-    /// appears as this work.
+    /// The curve stores a curved growth path as chords. When a later path erases these chords, their difference to the path appears as this
+    /// work.
     pub fn beside_growth(&self, law: &Interface, to: Apex) -> f64 {
         if self.knots.is_empty() { 0.0 } else { sweep::beside(law, &self.knots, self.apex, to) }
     }
@@ -269,8 +269,8 @@ impl Curve {
         }
         // Only a commit checks the end of the profile; a trial may exceed it.
         law.profile().check_end(to.d)?;
-        // Knots are removed before the move. Otherwise the new knot would contain the sums of the old stack, and later merges would
-        // count the error again.
+        // Breakpoints are removed before the move. Otherwise the new breakpoint would contain the sums of the old stack, and later merges
+        // would count the error again.
         while self.knots.len() + KNOTS_PER_MOVE > self.capacity {
             self.thin(law);
         }
@@ -311,7 +311,7 @@ impl Curve {
         Ok(friction)
     }
 
-    /// Returns the first knot of an open contact, where the path to `to` crosses d = 0.
+    /// Returns the first breakpoint of an open contact, where the path to `to` crosses d = 0.
     fn touching(&self, to: Apex) -> Knot {
         let Apex { d, u } = self.apex;
         let share = if to.d > d { (-d / (to.d - d)).clamp(0.0, 1.0) } else { 0.0 };

@@ -27,7 +27,7 @@ impl Engine {
         }
     }
 
-    /// Resets a memory to that of an untouched contact at an apex. A curve keeps its allocated space.
+    /// Resets a memory to the memory of an untouched contact at an apex. A curve keeps its allocated space.
     pub fn begin(&self, memory: &mut Memory, law: &Interface, at: Apex) {
         match (self, memory) {
             (Self::Curve, Memory::Curve(curve)) => curve.begin(law, at),
@@ -66,10 +66,10 @@ pub trait Tangential {
     fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
     /// Commits a segment and returns the part of its friction work that [`Branch::friction_power`] does not contain, J.
     fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
-    /// Returns the smooth branches, if the engine has them.
+    /// Returns the smooth branches of the hysteresis; `None` for an engine without branches.
     ///
-    /// An engine without branches has kinks at every change of a spring. For such an engine the full force law is integrated, and
-    /// only reversals are events.
+    /// The force of an engine without branches has a kink whenever a spring touches, slips or sticks. For such an engine the full force law
+    /// is integrated, and only reversals are events.
     fn branching(&self) -> Option<&dyn Branching> {
         None
     }
@@ -81,7 +81,7 @@ pub trait Branching {
     fn course(&self, law: &Interface, dd: f64, du: f64) -> Course;
     /// Returns the branch with direction `sense` (+1 or -1) that starts at the committed apex.
     ///
-    /// Knots within `slack` (m) of the limit line count as reached.
+    /// Breakpoints within `slack` (m) of the limit line count as reached.
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch;
     /// Returns force and slip front at the end of a straight path, along the limit line of direction `sense`.
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged;
@@ -89,9 +89,9 @@ pub trait Branching {
     ///
     /// This work is not 0 where the path erases curved growth pieces; see [`Curve::beside_growth`].
     fn beside_growth(&self, law: &Interface, to: Apex) -> f64;
-    /// Returns the distance u - p of an apex from the curve at its own height, m, and the slope dp/dh there.
+    /// Returns the distance u - p between a point (d, u) and the memory curve at h = d, m, and the slope dp/dh there.
     ///
-    /// Returns `None` for an open contact and beyond the end of the curve.
+    /// Returns `None` for an open contact and for d above the indentation of the curve.
     fn beside(&self, at: Apex) -> Option<[f64; 2]>;
 }
 
@@ -342,7 +342,7 @@ impl Memory {
         }
     }
 
-    /// Returns the smooth branches, if the engine has them.
+    /// Returns the smooth branches of the hysteresis; `None` for an engine without branches.
     #[inline]
     pub fn branching(&self) -> Option<&dyn Branching> {
         either!(self, engine => Tangential::branching(engine))

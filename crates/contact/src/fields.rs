@@ -48,7 +48,7 @@ pub struct Fields<'a> {
 pub struct Field {
     /// Distance r from the axis, m.
     pub r: f64,
-    /// Pressure p, Pa. The pressure is infinite at a sharp tip and at the border of a truncated flat. It is unbounded towards the
+    /// Pressure p, Pa. The pressure is infinite at a sharp tip and at the border of a truncated flat. The pressure is unbounded towards the
     /// edge of a flat punch.
     pub pressure: f64,
     /// Shear stress τ on the second body in sliding direction, Pa.
@@ -57,7 +57,7 @@ pub struct Field {
     pub displacement: f64,
     /// Local slip relative to the slip of the centre, m; 0 in the centre.
     ///
-    /// Inside the contact this is the relative sliding distance of the two surfaces. Outside the contact it is their relative
+    /// Inside the contact, slip is the relative sliding distance of the two surfaces. Outside the contact, slip is their relative
     /// displacement.
     pub slip: f64,
     /// Relative normal displacement of the two surfaces, m.
@@ -86,7 +86,7 @@ impl<'a> Fields<'a> {
         self.radius
     }
 
-    /// Returns the stick radius c, m: all springs inside stick.
+    /// Returns the stick radius c, m; all springs inside this radius stick.
     pub fn stick_radius(&self) -> f64 {
         self.stick_radius
     }

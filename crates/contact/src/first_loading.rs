@@ -11,7 +11,7 @@ mod approaches;
 use crate::Interface;
 use thiserror::Error;
 
-/// State at the end of a first loading. Negative u and `F_x` are the mirror image.
+/// State at the end of a first loading. States with negative u and `F_x` are mirror images.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstLoading {
     /// Indentation d, m.
@@ -97,7 +97,7 @@ pub enum FirstLoadingError {
 impl FirstLoading {
     /// Computes the first loading of an interface from two quantities.
     ///
-    /// `F_x` is a difference and has the rounding error of `μF_N`; u has that of `u_c`.
+    /// `F_x` is a difference and has the rounding error of `μF_N`. The displacement u has the rounding error of `u_c`.
     ///
     /// # Errors
     ///

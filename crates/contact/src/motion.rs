@@ -62,7 +62,7 @@ pub enum Segment {
         force: f64,
         /// Tangential elastic energy at the end, J.
         energy: f64,
-        /// Whether the path continues a growth segment smoothly. The knot between the two is then no event when slip reaches it.
+        /// Whether the path continues a growth segment smoothly. The breakpoint between the two is then no event when slip reaches it.
         joins: bool,
     },
 }
@@ -171,7 +171,7 @@ pub enum SpringState {
     SlipBackward,
 }
 
-/// Motion that an engine cannot follow.
+/// Reason why a contact engine rejects a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ContactError {
     /// The indentation exceeds the range of a row of springs.

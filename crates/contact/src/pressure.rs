@@ -23,9 +23,9 @@ impl Interface {
     ///
     /// The pressure is p(r) = (E\*/π) ∫ᵣᵃ g'(x)/√(x²-r²) dx, from (4.34). For g ~ xⁿ with 1 < n ≤ 2 the maximum is in the centre: p =
     /// E\*d/(πa) n/(n-1), for a Hertz contact 2E\*d/(πa). For n > 2, sums of powers, rounded edges and tables the maximum is found
-    /// numerically. The relative error of the maximum is below 1e-9, for tables in addition to that of g'. The pressure is infinite
-    /// at a sharp tip and at the edge of a flat punch. Returns `None` for a list of springs and a normal law, which define no shape
-    /// in three dimensions.
+    /// numerically. The relative error of the maximum is below 1e-9, for tables in addition to the error of g'. The pressure is infinite at
+    /// a sharp tip and at the edge of a flat punch. Returns `None` for a list of springs and a normal law, which define no shape in three
+    /// dimensions.
     pub fn peak_pressure(&self, d: f64) -> Option<f64> {
         let profile = self.profile();
         let peak = profile.peak()?;
@@ -41,7 +41,7 @@ impl Interface {
         })
     }
 
-    /// Returns the maximum of ∫ᵣᵃ g'(x)/√(x²-r²) dx over r, from sampled radii and a golden-section search near the best of them.
+    /// Returns the maximum of ∫ᵣᵃ g'(x)/√(x²-r²) dx over r, from sampled radii and a golden-section search near the best sample.
     fn largest_slope_integral(&self, a: f64) -> f64 {
         let profile = self.profile();
         let at = |r: f64| slope_integral(profile, a, r);

@@ -44,7 +44,7 @@ use tipped_paraboloid::TippedParaboloid;
 use truncated_cone::TruncatedCone;
 use truncated_paraboloid::TruncatedParaboloid;
 
-/// Profile of the gap between two bodies. Constant.
+/// Profile of the gap between two bodies.
 ///
 /// The MDR replaces a profile f(r) by the one-dimensional profile g(x) (4.20), a row of springs. The spring at x touches when the
 /// indentation h exceeds g(x). Forces depend only on the length of the row below a height. A contact therefore needs three functions:
@@ -241,7 +241,7 @@ impl Profile {
         of_kind!(self, kind => kind.reach())
     }
 
-    /// Returns whether the profile ends at its last point, beyond which it is unknown.
+    /// Returns whether the profile is known only up to a last point, as for tables and normal laws.
     pub fn ends_at_a_point(&self) -> bool {
         matches!(self.shape, Shape::Chart(_))
     }
@@ -257,7 +257,7 @@ impl Profile {
 
     /// Returns whether the stiffness jumps while the indentation grows.
     ///
-    /// A list of springs has a jump at each spring. A normal law has one where two straight parts meet.
+    /// A list of springs has a jump at each spring. A normal law has a jump where two linear parts of the force law meet.
     // Integrators of high order would otherwise exceed their tolerance at such kinks.
     pub fn has_kinks(&self) -> bool {
         of_kind!(self, kind => kind.has_kinks())

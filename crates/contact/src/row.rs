@@ -24,9 +24,9 @@ pub struct Row {
     apex: Apex,
     /// Rest position of each distinct spring in order of height, m; 0 for springs out of contact.
     anchors: Vec<f64>,
-    /// Number of distinct springs in contact; these are the lowest ones.
+    /// Number of distinct springs in contact; these are the springs of lowest height.
     touching: usize,
-    /// Whether u decreased in the last move in which it changed. The flag gives the sign of slip where the friction limit is 0.
+    /// Whether u decreased in the last move in which it changed. This flag gives the sign of slip where the friction limit is 0.
     backward: bool,
 }
 
@@ -212,7 +212,7 @@ impl Row {
         touching.map(move |(rank, &h)| (h, self.apex.u - self.stretch(springs, law, rank)))
     }
 
-    /// Returns the state of the lowest spring, which is the last to slip. If the lowest spring slips, the contact is in gross slip.
+    /// Returns the state of the lowest spring, which is the last spring to slip. If the lowest spring slips, the contact is in gross slip.
     pub fn lowest(&self, springs: &Springs, law: &Interface) -> SpringState {
         self.state(springs, law, 0)
     }

@@ -1,4 +1,4 @@
-//! Serialization of memories and branches as 64-bit words.
+//! Serialization of contact memories and hysteresis branches as 64-bit words.
 //!
 //! Only the state is written. Constant data such as moduli, springs and integrals of the profile come from the model when the state
 //! is read. The restored state is identical to the last bit. Readers reject invalid words, so that a restored memory is always valid.
@@ -6,7 +6,7 @@
 use crate::{Apex, Curve, Engine, Interface, Memory, Row, SpringRow};
 use std::sync::Arc;
 
-/// Reader of 64-bit words. Every method returns `None` at the end and for a word that is not of the requested kind.
+/// Reader of 64-bit words. Every method returns `None` at the end, and for a word of another kind than requested.
 #[derive(Debug, Clone)]
 pub struct Words<'a> {
     left: &'a [u64],
@@ -18,7 +18,7 @@ impl<'a> Words<'a> {
         Self { left: words }
     }
 
-    /// Returns the number of words that are left.
+    /// Returns the number of words that have not been read.
     pub fn left(&self) -> usize {
         self.left.len()
     }
@@ -59,7 +59,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Reads the number of items that follow, each of at least one word. Accepts at most `most`, and at most the number of words left.
+    /// Reads the number of items that follow, each of at least one word. Accepts at most `most` items and at most the number of words left.
     // A caller can therefore never allocate more than the words left.
     pub fn count(&mut self, most: usize) -> Option<usize> {
         let count = usize::try_from(self.word()?).ok()?;
@@ -71,7 +71,7 @@ impl<'a> Words<'a> {
         self.word().filter(|tally| *tally <= u64::MAX / 2)
     }
 
-    /// Reads an apex.
+    /// Reads an apex (d, u): indentation and displacement.
     pub(crate) fn apex(&mut self) -> Option<Apex> {
         Some(Apex { d: self.finite()?, u: self.finite()? })
     }

@@ -1,8 +1,8 @@
-//! Components: model elements with states, event functions (guards), a memory and an energy.
+//! Components: model elements with states, event functions (guards), path-dependent memory and an energy.
 //!
-//! A component reads waveforms, other components and the motion of bodies. It produces a signal that bodies and actuators may follow, or
-//! forces between bodies, or both. Between two events it obeys one smooth law. The event functions of a law are positive while it holds.
-//! When one crosses zero, the component chooses the next law. Contacts are components; a model may contain others, each a [`Block`].
+//! A component reads waveforms, other components and the motion of bodies. A component produces a signal that bodies may follow, forces
+//! between bodies, or both. Between two events a component obeys one smooth law. The event functions of a law are positive while the law
+//! holds. When an event function crosses zero, the component changes its law. Contacts and [`Block`]s are components.
 //!
 //! ```text
 //! inputs ──► slopes, signal, efforts      evaluation uses shared references and changes nothing
@@ -17,25 +17,25 @@ use crate::{EventKind, Sample};
 use std::fmt;
 use std::sync::Arc;
 
-/// A model element with states, event functions, a memory and an energy. It holds constants only; law and memory are arguments.
+/// Model element with states, event functions, memory of its past and energy. The type holds constants only; law and memory are arguments.
 pub trait Component: fmt::Debug {
-    /// Law that it obeys between two events.
+    /// Law that the component obeys between two events.
     type Law;
-    /// Memory of the past in addition to its states, as plain data.
+    /// Path-dependent memory of the component in addition to its states, as plain data.
     type Memory;
     /// Event function of a law.
     type Guard: Copy + PartialEq;
     /// Inputs at one time.
     type Inputs: ?Sized;
-    /// Accepted path of a step.
+    /// Path of the component's inputs in one accepted step.
     type Segment;
-    /// Error for a path that it cannot follow.
+    /// Error for a path that the component cannot follow.
     type Error;
 
-    /// Returns its states and their natural scales.
+    /// Returns the states of the component with their natural scales.
     fn states(&self) -> States;
 
-    /// Returns the event functions of a law. All are positive while the law holds.
+    /// Returns the event functions of a law. All these functions are positive while the law holds.
     fn guards(&self, law: &Self::Law) -> &[Self::Guard];
 
     /// Returns the value of an event function.
@@ -54,26 +54,26 @@ pub trait Component: fmt::Debug {
         at: &Moment<'_, Self::Inputs>,
     ) -> (EventKind, Self::Law);
 
-    /// Accepts the path of a step and updates the memory. Returns the dissipated work that no state contains, J.
+    /// Accepts the path of a step and updates the memory. Returns the dissipated work that is not an integral in the state vector, J.
     ///
     /// # Errors
     ///
-    /// If it cannot follow the path; the memory is then unchanged.
+    /// Returns an error if the component cannot follow the path; the memory is then unchanged.
     fn commit(&self, memory: &mut Self::Memory, segment: &Self::Segment) -> Result<f64, Self::Error>;
 
     /// Returns the stored energy, J.
     fn energy(&self, standing: Standing<'_, Self::Law, Self::Memory>, at: &Moment<'_, Self::Inputs>) -> f64;
 
-    /// Returns the names of its columns with their SI units, such as `u_m`.
+    /// Returns the names of the component's output columns with SI units, such as `u_m`.
     fn columns(&self) -> Vec<&'static str>;
 }
 
 /// States of a component.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct States {
-    /// Natural scale of each state, in its unit, above 0. Allowed errors are relative to it.
+    /// Natural scale of each state, in its unit, above 0. The error tolerance of a state is relative to this scale.
     pub scales: Vec<f64>,
-    /// Number of additional integrals, on which nothing depends.
+    /// Number of additional integrals (such as work) that do not influence the motion.
     pub integrals: usize,
 }
 
@@ -95,16 +95,16 @@ pub struct Moment<'a, I: ?Sized> {
     pub inputs: &'a I,
     /// States.
     pub states: &'a [f64],
-    /// Whether steps end at zero crossings of event functions. Otherwise laws change at the ends of steps, up to one step late.
+    /// Whether steps end at zero crossings of event functions. If false, laws change at the ends of steps, up to one step late.
     pub located: bool,
 }
 
-/// Message of a block that cannot follow its inputs.
+/// Error message of a block that cannot follow its inputs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refused(pub String);
 
-/// A component that is added to a [`Scene`](crate::Scene): driver electronics, hysteresis or creep, for example. Its law is a number, its
-/// memory a list of numbers and its inputs are samples of signals. Law, memory and states determine its future; all are plain data.
+/// Component that users add to a [`Scene`](crate::Scene): driver electronics, hysteresis or creep, for example. A block's law is a number,
+/// its memory a list of numbers, and its inputs are samples of signals. Law, memory and states determine the block's future behaviour.
 pub trait Block:
     Component<
         Law = usize,
@@ -116,20 +116,20 @@ pub trait Block:
     > + Send
     + Sync
 {
-    /// Returns its inputs, in the order of the samples.
+    /// Returns the inputs of the block, in the order of the samples.
     fn inputs(&self) -> &[Input];
 
-    /// Returns the number of its laws, which are numbered from 0. Saved states with other laws are refused. By default every
-    /// number is a law.
+    /// Returns the number of laws of the block, numbered from 0. A saved state with a law outside this range is refused. By default any
+    /// number is accepted.
     fn laws(&self) -> usize {
         usize::MAX
     }
 
-    /// Returns its states and its memory at t = 0, in law 0, from the inputs there. The length of the memory never changes.
+    /// Returns the states and the memory of the block at t = 0, in law 0, for given inputs. The length of the memory never changes.
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>);
 
-    /// Writes the slopes of its states and its efforts, and returns its powers. Not called for a block that has no states and
-    /// reads no length.
+    /// Writes the time derivatives of the block's states and its efforts (forces), and returns its powers. The method is not called for a
+    /// block without states and without [`Input::Length`].
     fn slopes(
         &self,
         standing: Standing<'_, usize, Vec<f64>>,
@@ -138,17 +138,17 @@ pub trait Block:
         efforts: &mut [f64],
     ) -> Powers;
 
-    /// Returns its output signal with the first two derivatives.
+    /// Returns the output signal of the block with its first two time derivatives.
     fn signal(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>) -> Sample;
 
-    /// Returns the smallest and the largest value of its signal, from the ranges of its inputs.
+    /// Returns the smallest and the largest value of the output signal for given ranges of the inputs.
     fn range(&self, inputs: &[(f64, f64)]) -> (f64, f64);
 
-    /// Chooses the law anew; returns the kind of the event and the law. Called at the start of a run, and where rates of inputs
-    /// may jump. Rates jump at corners of waveforms and where another block changes its law.
+    /// Chooses the law again and returns the kind of the event with the new law; `None` keeps the present law. The method is called where
+    /// rates of inputs may jump: at the start of a run, at corners of waveforms, and where another block changes its law.
     ///
-    /// A law that depends on the sign of a rate is chosen here, because an event function that is already negative has no zero
-    /// crossing. None keeps the law.
+    /// A law that depends on the sign of a rate must be chosen in this method, because an already negative event function has no zero
+    /// crossing.
     fn turn(
         &self,
         standing: Standing<'_, usize, Vec<f64>>,
@@ -158,52 +158,52 @@ pub trait Block:
         None
     }
 
-    /// Updates its states after a jump of its inputs, a straight path in zero time. By default states do not change. A
-    /// rate-independent block, whose states depend on the path only, updates them here.
+    /// Updates the states after a jump of the inputs, which counts as a straight path in zero time. By default the states do not change. A
+    /// rate-independent block, whose states depend on the path of the inputs only, updates its states in this method.
     ///
-    /// The memory follows by a [`commit`](Component::commit) of zero duration, the law by [`turn`](Self::turn).
+    /// After the jump, a [`commit`](Component::commit) of zero duration updates the memory, and [`turn`](Self::turn) the law.
     fn jump(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, states: &mut [f64]) {
         let _ = (standing, at, states);
     }
 
-    /// Whether its signal jumps where an input jumps.
+    /// Returns whether the output signal jumps where an input jumps.
     fn passes_jumps(&self) -> bool {
         false
     }
 
-    /// Returns the natural scale of an event function, in its unit. Rounding and nearness to zero are relative to it.
+    /// Returns the natural scale of an event function, in its unit. Deadbands for rounding and zero detection are relative to this scale.
     fn guard_scale(&self, guard: usize) -> f64;
 
-    /// Returns its natural rate, 1/s. Events much closer than its inverse count as accumulating.
+    /// Returns the natural rate of the block, 1/s. Events much closer in time than the inverse rate count as accumulating.
     fn rate(&self) -> f64;
 
-    /// Returns the eigenvalues λ = a + ib of its states at these inputs, as (a, b), 1/s. They limit fixed time steps.
+    /// Returns the eigenvalues λ = a + ib of the block's states at given inputs, as pairs (a, b), 1/s, which limit fixed time steps.
     ///
-    /// The default is the Jacobian of its slopes at the start in law 0, by finite differences. This is exact for linear slopes. A
-    /// block whose rates depend on the rate of an input returns the fastest.
+    /// The default computes the Jacobian of the slopes at the start in law 0 by finite differences, which is exact for linear slopes. A
+    /// block whose eigenvalues depend on the rate of an input returns the fastest ones.
     fn eigenvalues(&self, inputs: &[Sample]) -> Vec<(f64, f64)> {
         block_eigenvalues(self, inputs)
     }
 
-    /// Returns the largest number of events that one reversal of an input may cause, at least 1. They may be simultaneous; the
-    /// limit for accumulating events is larger by this factor.
+    /// Returns the largest number of events that one reversal of an input may cause, at least 1. The limit for accumulating events is
+    /// multiplied by this number, because the events may be simultaneous.
     fn events_per_turn(&self) -> u32 {
         1
     }
 
-    /// Whether its output depends on a state, given by its index. False for a state that only accumulates, such as work, or that
-    /// has no effect in this law. A motion can be periodic although such states are not.
+    /// Returns whether the output depends on a state, given by its index. False for a state that only accumulates, such as work, or has no
+    /// effect in this law. A motion can be periodic although such states are not.
     fn depends(&self, law: usize, state: usize) -> bool {
         let _ = (law, state);
         true
     }
 
-    /// Resets accumulating states at time `t` (s). Its output does not change.
+    /// Resets accumulating states, such as work, at time `t` (s). The output signal does not change.
     fn count_from(&self, t: f64, states: &mut [f64], memory: &mut [f64]) {
         let _ = (t, states, memory);
     }
 
-    /// Appends the values of its columns to a row.
+    /// Appends the values of the block's output columns to a row.
     fn fill(&self, standing: Standing<'_, usize, Vec<f64>>, at: &Moment<'_, [Sample]>, row: &mut Vec<f64>);
 }
 
@@ -212,8 +212,8 @@ pub trait Block:
 pub enum Input {
     /// Signal by index: waveforms first, then blocks.
     Signal(usize),
-    /// Displacement of a point of the first side minus that of a point of the second side, m. The effort of the block is the
-    /// force on the first side along it, N; the opposite force acts on the second side.
+    /// Displacement of a point of the first side minus that of a point of the second side, m. The block's effort (N) acts as a force on the
+    /// first side in this direction, and as the opposite force on the second side.
     Length {
         /// The two sides.
         between: [Side; 2],
@@ -233,7 +233,7 @@ pub struct Powers {
     pub loss: f64,
 }
 
-/// Accepted path of a block in one step.
+/// Data of one accepted step of a block.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passage {
     /// End of the step, s.
@@ -250,7 +250,7 @@ pub struct Passage {
     pub states: Vec<f64>,
 }
 
-/// Shared block. Two are equal if they refer to the same object.
+/// Shared block. Two shared blocks are equal if they refer to the same object.
 #[derive(Debug, Clone)]
 pub struct SharedBlock(pub Arc<dyn Block>);
 

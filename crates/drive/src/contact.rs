@@ -1,8 +1,8 @@
 //! Contacts as components of a drive: constants, laws, event functions and forces.
 //!
-//! A contact has a law ([`Mode`]), event functions ([`Guard`]), a memory and an energy, as every [component](crate::component).
-//! The crate `stickslip_contact` computes its mechanics. This module connects it with bodies: measures of u and d, the normal
-//! load, the number of contacts and the natural scales of tolerances.
+//! Like every [component](crate::component), a contact has a law ([`Mode`]), event functions ([`Guard`]), a memory and an energy. The crate
+//! `stickslip_contact` computes the contact mechanics. This module connects a contact with bodies: relative displacement u, indentation d,
+//! normal load, number of identical contacts and natural scales of tolerances.
 
 mod component;
 mod force;
@@ -17,10 +17,10 @@ use crate::{Piece, Sample};
 pub(crate) use stickslip_contact::Motion;
 use stickslip_contact::{Engine, Interface, Lull};
 
-/// Largest number of springs in a row whose changes end steps. The cost grows with the square of this number.
+/// Largest number of springs of a discretised contact whose slip and touch events end steps. The cost grows with its square.
 const MOST_SPRINGS: usize = 8192;
 
-/// Relative rounding of a few units in the last place.
+/// Relative rounding error of a few units in the last place.
 pub(crate) const PLACES: f64 = 8.0 * f64::EPSILON;
 
 /// Constants of a contact.
@@ -30,24 +30,24 @@ pub(crate) struct Contact {
     pub(crate) name: String,
     /// Index among the contacts.
     pub(crate) place: usize,
-    /// Measure u = x(first) - x(second) at the contact point, from the start, m.
+    /// Relative displacement u = x(first) - x(second) at the contact point since the start, m, as a linear form of the coordinates.
     pub(crate) u: Measure,
     pub(crate) interface: Interface,
-    /// Exact memory curve, or row of springs.
+    /// Solver of the tangential problem: exact slip-memory curve, or a row of springs.
     pub(crate) engine: Engine,
     /// Source of the indentation d.
     pub(crate) press: Press,
     /// Number of identical contacts.
     pub(crate) count: f64,
-    /// Displacement before the start, m.
+    /// Relative displacement u at t = 0, m.
     pub(crate) start: f64,
-    /// Whether the contact can never carry a tangential force: without friction, or never pressed.
+    /// Whether the contact can never carry a tangential force, because it has no friction or is never pressed.
     pub(crate) inert: bool,
-    /// Whether the contact never ends a step: never pressed, or frictionless with a prescribed normal load.
+    /// Whether the contact never ends a step, because it is never pressed, or is frictionless with a prescribed normal load.
     pub(crate) unguarded: bool,
-    /// Whether the positions of its bodies follow from a balance of forces.
+    /// Whether a balance of forces determines the position of one of the contact's bodies (quasi-static coordinate).
     pub(crate) balanced: bool,
-    /// Index among the contacts that may grow in full stick.
+    /// Index among the contacts whose area may grow in full stick, so that their tangential force is a state.
     pub(crate) slot: Option<usize>,
     pub(crate) natural: Natural,
 }
@@ -61,24 +61,24 @@ pub(crate) struct Natural {
     pub(crate) displacement: f64,
     /// Friction limit μF_N, N.
     pub(crate) force: f64,
-    /// Largest natural angular frequency of the coordinates that move it, rad/s; that of the waveforms if none has a stiffness.
+    /// Largest natural angular frequency of the coordinates that move the contact, rad/s; without stiffness, that of the waveforms.
     pub(crate) frequency: f64,
-    /// Stroke of the prescribed motion relative to u_c, at most 1. It is 1 if a free body moves the contact.
+    /// Stroke of the prescribed motion relative to u_c, at most 1. The value is 1 if a free body moves the contact.
     pub(crate) sweep: f64,
     /// Largest work of one stroke of the waveforms against friction and normal force, J.
     pub(crate) input: f64,
 }
 
-/// Source of the indentation.
+/// Source of the contact's indentation.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Press {
-    /// Constant indentation d (m), with the precomputed M(d) (m²).
+    /// Constant indentation d (m), with the precomputed reduced normal force M(d) = F_N/E\* (m²).
     Constant { d: f64, reduced_force: f64 },
-    /// Index of the waveform of the normal force, N.
+    /// Normal force (N) prescribed by a waveform, given by its index.
     Force(usize),
-    /// Index of the waveform of the indentation, m.
+    /// Indentation (m) prescribed by a waveform, given by its index.
     Indentation(usize),
-    /// Index of the waveform of the contact radius, m.
+    /// Contact radius (m) prescribed by a waveform, given by its index.
     Radius(usize),
     /// Indentation from the motion of the bodies: d = z(first) - z(second) - gap at the contact point.
     Coupled(Measure),
@@ -100,8 +100,8 @@ impl Contact {
         self.natural.displacement * self.natural.frequency
     }
 
-    /// Returns the indentation d (m) and its rate (m/s) for a sample of the waveform of the normal load. For a row of springs, d
-    /// belongs to the springs in contact only.
+    /// Returns the indentation d (m) and its rate (m/s) for a sample of the waveform of the normal load. A row of springs under a
+    /// prescribed force needs its present linear law `lull`.
     #[inline(never)]
     pub(crate) fn pressed(&self, sample: Sample, lull: Option<&Lull>) -> (f64, f64) {
         if let (Press::Force(_), Some(lull)) = (&self.press, lull) {
@@ -125,31 +125,31 @@ impl Contact {
         }
     }
 
-    /// Whether only waveforms move the contact, so that its path is prescribed.
+    /// Returns whether only waveforms move the contact, so that its path (u, d) is prescribed.
     pub(crate) fn is_walked(&self) -> bool {
         self.u.free.is_empty() && self.coupling().is_none_or(|d| d.free.is_empty())
     }
 
-    /// Returns the natural scale of its work, J: μF_N u_c for large strokes. For small strokes U, the loss of a loop is
-    /// proportional to (U/u_c)³.
+    /// Returns the natural scale of the contact's work, J: μF_N u_c for large strokes. For a small stroke U the scale is proportional to
+    /// (U/u_c)³, like the loss of a hysteresis loop.
     pub(crate) fn natural_work(&self) -> f64 {
         self.natural.force * self.natural.displacement * self.natural.sweep.powi(3)
     }
 
-    /// Returns the rounding of the work of one stroke of the waveforms, J.
+    /// Returns the rounding error of the work during one stroke of the waveforms, J.
     pub(crate) fn rounding(&self) -> f64 {
         f64::EPSILON * self.natural.input
     }
 
-    /// Returns μF_N at the natural indentation, N.
+    /// Returns the friction limit μF_N at the natural indentation, N.
     pub(crate) fn friction_limit(&self) -> f64 {
         self.natural.force
     }
 
-    /// Whether its path in the (d, u) plane is straight and prescribed while waveforms are on these pieces. Either all its
-    /// prescribed motions have constant rates, or u rests.
+    /// Returns whether the contact's path in the (d, u) plane is straight and prescribed on the present pieces of the waveforms. Either all
+    /// prescribed motions have constant rates, or u is constant.
     ///
-    /// The memory then has force, energy and friction work in closed form, by one chord. A normal force or contact radius that is
+    /// On a straight path the slip memory gives force, energy and friction work in closed form. A normal force or contact radius that is
     /// linear in time gives a straight path only at constant u.
     #[inline]
     pub(crate) fn goes_straight(&self, pieces: &[Piece]) -> bool {
@@ -168,36 +168,36 @@ impl Contact {
         }
     }
 
-    /// Whether changes of its springs end steps: a row with a varying normal load and at most [`MOST_SPRINGS`] springs.
-    // Under constant load, the error estimate detects the kinks; to end steps there would be too expensive for long paths.
-    // Balanced contacts move on straight paths only, so their rows end steps under any load.
+    /// Returns whether slip and touch of single springs end steps: in a row of at most [`MOST_SPRINGS`] under varying normal load.
+    // Under constant load the error estimate detects the kinks; ending steps at every kink would be too expensive for long paths. Contacts
+    // of quasi-static coordinates move on straight paths only, so their rows end steps under any load.
     pub(crate) fn has_lulls(&self) -> bool {
         (self.balanced || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
     }
 
-    /// Whether the indentation is constant.
+    /// Returns whether the indentation is constant.
     pub(crate) fn is_constant(&self) -> bool {
         matches!(self.press, Press::Constant { .. })
     }
 
-    /// Whether its normal force begins with a power of d between 1 and 2. Its stiffness then has an infinite slope at first
-    /// contact, and an even step across it loses order.
+    /// Returns whether the normal force begins with a power of d between 1 and 2. The derivative of the stiffness is then infinite at first
+    /// contact, and an ordinary integration step across first contact loses order.
     pub(crate) fn is_steep(&self) -> bool {
         let power = self.interface.profile().first_power();
         power > 1.0 && power < 2.0
     }
 
-    /// Whether an even step to its lift-off is as accurate as a graded one: for forces with a power of d of at least 2, or 3 with damping.
+    /// Returns whether an ordinary step to lift-off is as accurate as a graded one: for F_N ∝ dᵖ with p ≥ 2, or p ≥ 3 with damping.
     pub(crate) fn fades_evenly(&self) -> bool {
         let damped = if self.is_damped() { 1.0 } else { 0.0 };
         self.interface.profile().first_power() - damped >= 2.0
     }
 
-    /// Returns the error of a graded step to its lift-off, in units of the tolerance. `told` is the estimate of the step. `left`
-    /// returns the indentation left at the start in natural lengths, and the tolerance of a velocity in natural velocities.
+    /// Returns the error of a graded step to lift-off, in units of the tolerance. `told` is the error estimate of the step. The function
+    /// `left` returns the indentation at the start of the step in natural lengths, and the tolerance of a velocity in natural velocities.
     ///
-    /// The damping force has a power of d that is lower by 1. If that power p - 1 is not a multiple of 1/2, stages in the square
-    /// root of time do not resolve it. The error is then about βω·leftᵖ, even if the estimate is small.
+    /// The damping force is proportional to d to the power p - 1 if the normal force has the power p. Stages placed in the square root of
+    /// time resolve this force only for multiples of 1/2. Otherwise the error is about βω·leftᵖ, even if the estimate is small.
     // The factors 1 to 30 and 2e-4 were fitted to measured errors of steps of 0.05 to 0.8 rad.
     pub(crate) fn missed(&self, told: f64, left: impl FnOnce() -> (f64, f64)) -> f64 {
         let (power, fading) = (self.interface.profile().first_power(), self.fading());
@@ -209,22 +209,22 @@ impl Contact {
         crowded.max(2e-4 * fading * math::powf(left, power) / allowed)
     }
 
-    /// Returns βω, the damping force at natural velocity relative to the natural force; 0 without damping.
+    /// Returns βω: the damping force at the natural velocity, relative to the natural force; 0 without damping.
     pub(crate) fn fading(&self) -> f64 {
         self.interface.damping() * self.natural.frequency
     }
 
-    /// Whether its sticking springs are damped.
+    /// Returns whether the sticking springs of the contact are damped.
     pub(crate) fn is_damped(&self) -> bool {
         self.interface.damping() > 0.0
     }
 
-    /// Whether it is never pressed.
+    /// Returns whether the contact is never pressed.
     pub(crate) fn is_never_pressed(&self) -> bool {
         self.natural.depth == 0.0
     }
 
-    /// Returns the measure of d if the motion of the bodies determines it.
+    /// Returns the indentation d as a linear form of the coordinates, if the motion of the bodies determines it.
     pub(crate) fn coupling(&self) -> Option<&Measure> {
         match &self.press {
             Press::Coupled(measure) => Some(measure),

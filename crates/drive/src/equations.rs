@@ -1,10 +1,10 @@
-//! Equations of motion, evaluated with a read-only memory.
+//! Equations of motion, evaluated without any change of the contacts' slip memory.
 //!
-//! M q̈ = Σ forces of contacts, links, loads and blocks, plus integrals on which nothing depends: work, dissipation, elastic
-//! energy and friction work of growing contacts. Steppers evaluate slopes, or only accelerations if no force depends on a
-//! velocity. Records and event functions use the same functions.
+//! M q̈ = Σ forces of contacts, links, loads and blocks, plus integrals that do not influence the motion: work, dissipation, elastic energy
+//! and friction work of contacts that grow in full stick. Integration methods evaluate slopes, or only accelerations if no force depends on
+//! a velocity. Records and event functions use the same functions.
 //!
-//! An evaluation writes slopes only and leaves no other trace. It does not choose laws: laws are smooth beyond the event that ends them.
+//! An evaluation has no side effects and does not change force laws. A law is smooth beyond the event that ends it.
 
 mod balance;
 mod blocks;
@@ -23,18 +23,18 @@ use stickslip_contact::Memory;
 use stickslip_stepper::{Conservative, System};
 use sum::{Positions, Sum};
 
-/// Relative tolerance of the end of a piece, for steps that may cross corners.
+/// Relative tolerance for the end of a waveform's smooth piece, for steps that may cross corners.
 const CORNER_SLACK: f64 = 1e-9;
 
-/// Right-hand side of a drive. It holds shared references only, so evaluation has no side effects.
+/// Right-hand side of the equations of motion. The struct holds shared references only, so evaluation has no side effects.
 #[derive(Clone, Copy)]
 pub(crate) struct Equations<'a> {
     pub(crate) model: &'a Model,
     /// Current smooth piece of each waveform.
     pub(crate) pieces: &'a [Piece],
-    /// State of each generated waveform; empty without any.
+    /// State of each generated waveform; empty if no waveform is generated.
     pub(crate) generators: &'a [Option<Generating>],
-    /// Committed memories of the contacts.
+    /// Slip memories of the contacts at the last accepted step.
     pub(crate) memories: &'a [Memory],
     /// Present law of each contact.
     pub(crate) modes: &'a [Mode],
@@ -47,7 +47,7 @@ pub(crate) struct Equations<'a> {
 }
 
 impl<'a> Equations<'a> {
-    /// Returns the equations for a state. `layout` may omit the components of growing contacts.
+    /// Returns the equations for a state. `layout` may omit the state components of contacts that grow in full stick.
     pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
         let State { pieces, generators, memories, modes, blocks, .. } = state;
         Self { model, pieces, generators, memories, modes, blocks, layout, crossing, interval: None }
@@ -55,12 +55,12 @@ impl<'a> Equations<'a> {
 }
 
 impl<'a> Equations<'a> {
-    /// Returns memory and law of a contact.
+    /// Returns slip memory and present law of a contact.
     pub(crate) fn law(&self, c: usize) -> (&'a Memory, &'a Mode) {
         (&self.memories[c], &self.modes[c])
     }
 
-    /// Returns waveform `w` at time t; exact within a smooth piece, including its end.
+    /// Returns waveform `w` at time t; the value is exact within a smooth piece, including its end.
     #[inline(always)]
     pub(crate) fn sample(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
@@ -70,7 +70,7 @@ impl<'a> Equations<'a> {
         waveform.sample(piece, t)
     }
 
-    /// Returns waveform `w` for a step that may cross corners. More than 1e-9 of its length beyond a piece, the right piece is searched.
+    /// Returns waveform `w` for a step that may cross corners. Outside the present smooth piece, the right piece is searched.
     #[inline(never)]
     fn across(&self, w: usize, t: f64) -> Sample {
         let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
@@ -98,10 +98,10 @@ impl<'a> Equations<'a> {
         }
     }
 
-    /// Returns a measure at one time.
+    /// Returns the value and the rates of a linear form of the coordinates at one time.
     ///
-    /// It is constant + Σ aq + Σ bw over free coordinates q and followed signals w. A [`View`] without velocities gives the rate
-    /// of the signals only.
+    /// The value is constant + Σ aq + Σ bw over free coordinates q and followed signals w. For a [`View`] without velocities, the rate is
+    /// that of the signals only.
     #[inline(always)]
     pub(crate) fn read<V: View>(&self, measure: &Measure, at: &V) -> Reading {
         let (mut own, mut rate) = (0.0, 0.0);
@@ -122,7 +122,7 @@ impl<'a> Equations<'a> {
         Reading { value: measure.constant + (own + followed), rate: rate + driven, driven }
     }
 
-    /// Returns the value of a measure, with the same bits as [`Self::read`].
+    /// Returns the value of a linear form, bit-identical to [`Self::read`].
     #[inline(always)]
     fn length(&self, measure: &Measure, at: &impl View) -> f64 {
         let (mut own, mut followed) = (0.0, 0.0);
@@ -135,7 +135,7 @@ impl<'a> Equations<'a> {
         measure.constant + (own + followed)
     }
 
-    /// Returns the second derivative of a measure, m/s²; `free` returns that of a free coordinate. Prescribed motions are exact
+    /// Returns the second time derivative of a linear form, m/s²; `free` returns that of a free coordinate. Prescribed motions are exact
     /// within a smooth piece.
     pub(crate) fn acceleration(&self, measure: &Measure, at: &impl View, free: impl Fn(usize) -> f64) -> f64 {
         let followed = measure.driven.iter().map(|(w, a)| a * self.signal(*w, at).acceleration);
@@ -144,7 +144,7 @@ impl<'a> Equations<'a> {
 
     /// Returns the motion of a contact; `y` returns a component of the state.
     ///
-    /// It contains d, u (m) and their rates (m/s). u counts from its shifted origin; d is negative for an open contact.
+    /// The motion consists of d, u (m) and their rates (m/s). u counts from its shifted origin; d is negative for an open contact.
     #[inline]
     pub(crate) fn motion(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
         let at = Components { t, y };
@@ -159,7 +159,7 @@ impl<'a> Equations<'a> {
         Motion { d, u: u.value, dd, du: u.rate }
     }
 
-    /// Returns d and u of a contact, m, without rates.
+    /// Returns indentation d and displacement u of a contact, m, without rates.
     #[inline]
     pub(crate) fn standing(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
         let at = Components { t, y };
@@ -170,7 +170,7 @@ impl<'a> Equations<'a> {
         Motion { d, u: self.length(&contact.u, &at), ..Motion::default() }
     }
 
-    /// Returns u of a contact from its shifted origin, m, and its rate, m/s.
+    /// Returns the displacement u of a contact from its shifted origin, m, and its rate, m/s.
     #[inline]
     pub(crate) fn slide(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Reading {
         self.read(&contact.u, &Components { t, y })
@@ -194,7 +194,7 @@ impl<'a> Equations<'a> {
 }
 
 impl Equations<'_> {
-    /// Returns the precomputed equations until the next event, if they are complete.
+    /// Returns the precomputed equations until the next event, if they contain all forces.
     #[inline(always)]
     fn kernel(&self) -> Option<&Kernel<'_>> {
         self.interval.map(|interval| &interval.kernel).filter(|kernel| kernel.is_whole())
@@ -202,7 +202,7 @@ impl Equations<'_> {
 
     /// Computes accelerations without velocities, and the input power, W.
     ///
-    /// `out` has q̈ of the free coordinates, then the integral. Valid for models without dampers, varying loads, growth and blocks only.
+    /// `out` receives q̈ of the free coordinates, then the input power. Valid only without dampers, varying loads, growth and blocks.
     #[inline(never)]
     fn accelerate(&self, at: &Positions<'_>, out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(self.layout.free);
@@ -237,14 +237,14 @@ impl System for Equations<'_> {
         }
     }
 
-    /// True in flight and in gross slip under constant loads.
+    /// Returns whether forces are constant, as in flight and in gross slip under constant loads.
     fn coasts(&self) -> bool {
         self.interval.is_some_and(Interval::is_constant)
     }
 }
 
 impl Equations<'_> {
-    /// Writes the slopes of all components in the general case. Not inlined: the precomputed equations are used far more often.
+    /// Writes the slopes of all state components without precomputed equations. Not inlined, because this case is rare.
     #[inline(never)]
     fn all_slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
         let layout = self.layout;
@@ -302,7 +302,7 @@ impl Conservative for Equations<'_> {
         }
     }
 
-    /// True in gross slip under constant loads: the motion is a parabola.
+    /// Returns whether the motion is a parabola, as in gross slip under constant loads.
     fn coasts(&self) -> bool {
         self.interval.is_some_and(Interval::is_constant)
     }

@@ -1,7 +1,7 @@
-//! Initial state of a run: given, or the static equilibrium at t = 0.
+//! Initial state of a run: given by the user, or the static equilibrium at t = 0.
 //!
-//! With friction there are many equilibria. The loads are increased in proportion, and contacts remember this path. The energy
-//! balance begins at this state. A body above its support is first set down by a millionth of its loads.
+//! With friction the equilibrium is not unique. The loads are increased in proportion, and the slip memories of contacts record this path.
+//! The energy balance begins at the equilibrium. Before, a millionth of the loads sets down bodies that are above their support.
 
 mod balance;
 mod balanced;
@@ -28,26 +28,26 @@ const PARTS: u32 = 64;
 const MOST: usize = 200;
 /// Initial pseudo-time of a search without a known nearby equilibrium.
 const TAU: f64 = 1.0;
-/// Fraction of the loads that sets the bodies down, so that contacts are hardly loaded on this path.
+/// Fraction of the loads that sets bodies down on their supports, so small that this path hardly loads the contacts.
 const LANDING: f64 = 1e-6;
-/// Slip beyond which a second equilibrium is sought, in u_c; and the ratio of distances below which it is chosen.
+/// Slip in u_c beyond which a second equilibrium is sought, and the ratio of distances below which this second one is chosen.
 const FAR: f64 = 100.0;
 const NEARER: f64 = 0.5;
 
 impl Model {
-    /// Returns the state at t = 0 for a plan.
+    /// Returns the initial state of a run, at t = 0, for the settings of a [`Plan`].
     ///
     /// # Errors
     ///
-    /// [`SceneError`]: a number of the plan is out of range, or there is no static equilibrium. Also if the stepper cannot follow
-    /// jumps of waveforms, or its fixed step is unstable.
+    /// [`SceneError`]: a number of the [`Plan`] is out of range, or there is no static equilibrium. The same error is returned if the
+    /// stepper cannot follow jumps of waveforms, or its fixed step is unstable.
     pub fn start(&self, plan: &Plan) -> Result<State, SceneError> {
         let mut state = State::blank();
         self.start_in(plan, &mut state, &mut Vec::new())?;
         Ok(state)
     }
 
-    /// Computes the state at t = 0 in existing storage; `row` is scratch. After an error the state is undefined.
+    /// Computes the initial state in existing storage; `row` is scratch memory. After an error the state is undefined.
     pub(crate) fn start_in(
         &self,
         plan: &Plan,
@@ -66,7 +66,7 @@ impl Model {
         self.begin(state, row)
     }
 
-    /// Computes the state at t = 0 for a valid plan.
+    /// Computes the initial state for a valid [`Plan`].
     fn begin(&self, state: &mut State, row: &mut Vec<f64>) -> Result<(), SceneError> {
         self.put_at_rest(state);
         if self.equilibrium && !self.free.is_empty() {
@@ -80,7 +80,7 @@ impl Model {
         Ok(())
     }
 
-    /// Starts the energy balance at a state: nothing has been supplied or dissipated before.
+    /// Starts the energy balance at a state: supplied and dissipated energy are set to zero.
     pub(crate) fn open_books(&self, state: &mut State, row: &mut Vec<f64>) {
         let layout = state.layout(self);
         (state.y[layout.input()], state.y[layout.damping()]) = (0.0, 0.0);
@@ -93,13 +93,13 @@ impl Model {
         let pressed = |c: &Contact| c.interface.normal_energy(equations.pressed(c, state.t).0);
         state.jumps = -varying.map(|c| c.count * pressed(c)).sum::<f64>()
             - self.lifted(|i| state.shifts[i] + state.y[i]);
-        // Uses the record's own row, so that the balance is exactly closed at the start.
+        // Uses the last column of a record row, so that the balance is exactly closed at the start.
         record::fill(&self.equations(state), state, state.t, &|i| state.y[i], row);
         // The balance error of the row is minus the stored energy.
         state.origin = -row.last().copied().unwrap_or(0.0);
     }
 
-    /// Refuses an unstable fixed step.
+    /// Returns an error if the fixed time step is unstable.
     fn check_step(&self, stepper: Stepper) -> Result<(), SceneError> {
         let Accuracy::Step(step) = stepper.accuracy() else { return Ok(()) };
         let limit = self.longest_step(stepper).unwrap_or(f64::INFINITY);
@@ -117,9 +117,9 @@ impl Model {
 /// Search for the static equilibrium at t = 0.
 struct Settling<'m> {
     model: &'m Model,
-    /// Prescribed indentations, m; precomputed, because those from forces require a search.
+    /// Prescribed indentations of the contacts, m; precomputed, because an indentation from a force requires a search.
     depths: Vec<f64>,
-    /// Last response of each contact: most contacts rest in many iterations.
+    /// Last computed response of each contact; reused, because most contacts do not move in most iterations.
     answers: RefCell<Vec<Answer>>,
 }
 
@@ -134,7 +134,7 @@ impl<'m> Settling<'m> {
         }
     }
 
-    /// Increases the loads in proportion and follows the equilibrium.
+    /// Increases the loads in proportion and follows the equilibrium of the free coordinates.
     fn settle(&self, state: &mut State) -> Result<(), SceneError> {
         let n = self.model.free.len();
         if n > MOST {
@@ -171,8 +171,8 @@ impl<'m> Settling<'m> {
         self.come_back(given, state)
     }
 
-    /// Searches again from the given positions if a contact has slipped far. During proportional loading friction may be too
-    /// small for a time, and a body may slide to a distant equilibrium.
+    /// Searches again from the given positions if a contact has slipped far. During proportional loading the friction limit may be too
+    /// small at first, so that a body slides to a distant equilibrium.
     fn come_back(&self, given: State, state: &mut State) -> Result<(), SceneError> {
         let [from, to] = [&given, &*state].map(|state| self.apexes(state, &state.y).collect::<Vec<_>>());
         let mut ways = self.model.contacts.iter().zip(from.iter().zip(&to));
@@ -194,12 +194,12 @@ impl<'m> Settling<'m> {
         Ok(())
     }
 
-    /// Returns the equilibrium nearest to y, with some forces still missing and some coordinates held.
+    /// Returns the equilibrium nearest to the positions y, with part of the loads still missing and some coordinates held.
     fn balance(&self, state: &State, missing: &DVector<f64>, y: &[f64], held: &[bool]) -> Rc<Balance> {
         Search::new(self, state, (missing, held)).from(y, TAU)
     }
 
-    /// Accepts an equilibrium: the contacts move there on straight paths.
+    /// Accepts an equilibrium: the contacts move to it on straight paths, which their slip memories record.
     fn stand(&self, state: &mut State, balance: &Balance) -> Result<(), SceneError> {
         // Responses depend on the memories.
         self.answers.borrow_mut().fill(Answer::NONE);
@@ -214,8 +214,8 @@ impl<'m> Settling<'m> {
         Ok(())
     }
 
-    /// Returns the equilibrium under all loads by releasing one coordinate after the other: z, which determines normal forces,
-    /// then x, then pitch.
+    /// Returns the equilibrium under all loads by releasing the coordinates one by one: first z, which determines normal forces, then x,
+    /// then pitch.
     fn released(&self, state: &State) -> Result<Rc<Balance>, SceneError> {
         let n = self.model.free.len();
         let (nothing, mut held) = (DVector::zeros(n), vec![true; n]);
@@ -235,8 +235,8 @@ impl<'m> Settling<'m> {
         Ok(balance)
     }
 
-    /// Returns the error that names the coordinate without equilibrium. It is one of those `along` an axis without which all
-    /// others are in balance, or the `first` that could not be released.
+    /// Returns the error that names the coordinate without equilibrium: the coordinate in the list `along` without which all others are in
+    /// balance, or else the `first` one that could not be released.
     fn lost(
         &self,
         state: &State,

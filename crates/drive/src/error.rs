@@ -10,10 +10,10 @@ use crate::scene::Axis;
 use stickslip_contact::ContactError;
 use thiserror::Error;
 
-/// Reason why a run stopped, with time and location. [`RunError::advice`] suggests a remedy.
+/// Reason why a run stopped, with time and name of the part. [`RunError::advice`] suggests a remedy.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum RunError {
-    /// The step control requires steps below the resolution of time, or below its limit.
+    /// The step-size control requires steps below the resolution of time, or below the minimum step.
     #[error("at t = {t:.6e} s even a time step of {step:.3e} s exceeds the tolerance")]
     StepTooSmall {
         /// Time, s.
@@ -29,7 +29,7 @@ pub enum RunError {
         /// Longest stable step, s.
         limit: f64,
     },
-    /// A coordinate is no longer finite.
+    /// The value of a coordinate is no longer finite.
     #[error("at t = {t:.6e} s the motion of `{body}`, or the work on it, is not finite")]
     NotFinite {
         /// Time, s.
@@ -37,7 +37,7 @@ pub enum RunError {
         /// Name of the body.
         body: String,
     },
-    /// The limit of steps is reached.
+    /// The run has reached its limit of time steps.
     #[error("the limit of {limit} steps was reached at t = {t:.6e} s")]
     TooManySteps {
         /// Time, s.
@@ -45,7 +45,7 @@ pub enum RunError {
         /// Limit.
         limit: u64,
     },
-    /// The limit of events is reached.
+    /// The run has reached its limit of events.
     #[error("the limit of {limit} events was reached at t = {t:.6e} s")]
     TooManyEvents {
         /// Time, s.
@@ -77,7 +77,7 @@ pub enum RunError {
         /// Length of the time window, s.
         window: f64,
     },
-    /// Attempts hardly advance the time.
+    /// Many attempted steps advance the time only slightly.
     #[error("at t = {t:.6e} s the last {attempts} time steps advanced the run by only {advance:.3e} s")]
     Crawl {
         /// Time, s.
@@ -97,7 +97,7 @@ pub enum RunError {
         /// Reason.
         source: ContactError,
     },
-    /// Nothing balances the load on a balanced coordinate any more: gross slip, or lift-off.
+    /// No force balances the load on a quasi-static coordinate any more: gross slip, or lift-off.
     #[error(
         "no force balances {load:.3e} N along {} of `{body}` from t = {t:.15e} s on: {}",
         .axis.key(),
@@ -125,7 +125,7 @@ pub enum RunError {
         /// Reason, by the block.
         why: String,
     },
-    /// The limit of wall-clock time is reached.
+    /// The run has reached its limit of wall-clock time.
     #[error("the limit of {limit} s of wall time was reached at t = {t:.6e} s")]
     OutOfTime {
         /// Time, s.
@@ -141,7 +141,7 @@ pub enum RunError {
         /// Requested time, s.
         until: f64,
     },
-    /// The state of this stepper cannot be held between calls.
+    /// A run with this stepper cannot be paused and continued.
     #[error("a run with the stepper `{stepper}` cannot be advanced in parts")]
     NotHeld {
         /// Name of the stepper.
@@ -170,7 +170,7 @@ pub enum RunError {
 /// Relative difference below which load and limit are reported as one number.
 const ALIKE: f64 = 1e-3;
 
-/// Returns a text about the limit of the contacts, N. Limit and load may be equal: gross slip begins at the limit.
+/// Returns a text about the friction limit of the contacts, N. Load and limit may be equal, because gross slip begins at the limit.
 fn held(load: f64, limit: f64) -> String {
     if (load.abs() - limit).abs() <= ALIKE * limit {
         "this is the friction limit of its contacts".to_owned()
@@ -180,12 +180,12 @@ fn held(load: f64, limit: f64) -> String {
 }
 
 impl RunError {
-    /// Whether the run was halted between two steps and can continue: by the watcher, or by a limit of steps or wall-clock time.
+    /// Returns whether the run was halted between two steps and can continue: by the watcher, or by a limit of steps or wall-clock time.
     pub fn is_halt(&self) -> bool {
         matches!(self, Self::Interrupted { .. } | Self::OutOfTime { .. } | Self::TooManySteps { .. })
     }
 
-    /// Returns a suggested remedy.
+    /// Returns a text that suggests a remedy.
     pub fn advice(&self) -> &'static str {
         match self {
             Self::StepTooSmall { .. } => {

@@ -1,7 +1,7 @@
 //! Events: times at which the law of motion changes.
 //!
-//! An event of a step from t₀ to t₁ lies in the half-open interval (t₀, t₁]. An event function that is zero at t₀ belongs to the
-//! event just handled; it counts again after it has been positive.
+//! An event of a step from t₀ to t₁ lies in the half-open interval (t₀, t₁]. An event function that is zero at t₀ belongs to the event just
+//! handled; its next zero counts after the function has been positive.
 
 /// Event of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,18 +28,18 @@ pub enum Source {
 /// Kind of an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum EventKind {
-    /// The sense of slip reverses. Under varying indentation this is the sense of the slipping edge, not of u.
+    /// The sense of slip reverses. Under varying indentation, the sense of slip at the contact edge counts, not the sign of u̇.
     Reversal,
-    /// u̇ changes its sign at a time that is no event of the contact's law. Reported for contacts of watched bodies only, and
-    /// only if [`Model::tells_turns`](crate::Model::tells_turns). It does not count as an event of the run.
+    /// u̇ changes its sign at a time that is no event of the contact's law. Such a turn does not count as an event of the run. Turns are
+    /// reported for contacts of watched bodies only, and only if [`Model::tells_turns`](crate::Model::tells_turns).
     Turn,
-    /// A piece of the memory is used up: a hysteresis loop closes.
+    /// A segment of the slip memory is used up, so that a hysteresis loop closes.
     LoopClosed,
     /// Gross slip begins.
     GrossSlip,
     /// Gross slip ends.
     GrossSlipEnds,
-    /// The contact begins to grow in full stick.
+    /// The contact area begins to grow in full stick.
     FullStick,
     /// Slip begins in a contact that has grown in full stick.
     SlipBegins,
@@ -51,12 +51,12 @@ pub enum EventKind {
     Corner,
     /// A waveform jumps.
     Jump,
-    /// An event function of a block crosses zero; the text is the block's name for it.
+    /// An event function of a block crosses zero; the text is the block's name for the event.
     Own(&'static str),
 }
 
 impl EventKind {
-    /// Returns the name in `events.csv`.
+    /// Returns the name of this kind of event in `events.csv`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Reversal => "reversal",

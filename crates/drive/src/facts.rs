@@ -1,8 +1,8 @@
 //! Properties of a model that are known before a run.
 //!
-//! Contents: [`Setup`], the common argument; [`Pressed`] and [`Loaded`], a contact at an indentation; [`zero_step_stroke`];
-//! [`Prescribed`], slip on a path that waveforms prescribe; [`Follower`], a quantity that follows a waveform; [`Mode`], a normal
-//! mode; [`ExpectedEvents`]; the numbers of [`rows`] and [`fixed_steps`] of a run.
+//! [`Setup`] is the common argument of the functions. [`Pressed`] and [`Loaded`] describe a contact at an indentation. [`zero_step_stroke`]
+//! computes the dead zone. [`Prescribed`] is slip on a prescribed path, [`Follower`] a quantity that follows a waveform, [`Mode`] a normal
+//! mode. [`ExpectedEvents`], [`rows`] and [`fixed_steps`] predict the size of a run.
 
 mod events;
 mod extent;
@@ -25,7 +25,7 @@ pub use pressed::{Loaded, Pressed, has_constant_load, zero_step_stroke};
 pub struct Setup<'a> {
     /// Description of the drive.
     pub scene: &'a Scene,
-    /// Model made from it.
+    /// Model that is built from the description.
     pub model: &'a Model,
     /// State at t = 0.
     pub start: &'a State,

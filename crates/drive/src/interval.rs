@@ -1,13 +1,12 @@
-//! Smooth interval between two events, with precomputed constants.
+//! Time interval between two events, in which all force laws are smooth, with precomputed constants.
 //!
-//! Between events each contact obeys one law and each waveform one piece. Most contacts have constant indentation and follow one
-//! branch over prescribed motions that are linear or sinusoidal. Their u is linear in the coordinates, and their force is a
-//! closed form of u. Open contacts exert no force. All others use the general [`Equations`](crate::equations::Equations).
+//! Between events each contact obeys one law, and each waveform one smooth piece. Most contacts have constant indentation and one direction
+//! of slip, and their prescribed motions are linear or sinusoidal in time. Their force is a closed form of u, which is linear in the
+//! coordinates. Open contacts exert no force. Other contacts use the general [`Equations`](crate::equations::Equations).
 //!
-//! An interval is rebuilt after each event from the state, or only updated for the contacts with an event. Evaluations use it for
-//! forces, the event detection for event functions, and the closed-form solution for the oscillation of a single slider. See
-//! [`treatment`](crate::method::treatment) for the treatment of a contact and [`choice`](crate::method::choice) for the method of
-//! an interval.
+//! After each event the data of the interval are rebuilt from the state, or only updated for the contacts with an event. Evaluations use
+//! these data for forces, event location for event functions, and the closed-form solution for the oscillation of a single slider. See
+//! [`treatment`](crate::method::treatment) for the treatment of a contact and [`choice`](crate::method::choice) for the integration method.
 
 mod closed;
 mod followed;
@@ -28,35 +27,35 @@ use crate::model::{Free, Model};
 use crate::state::State;
 use stickslip_contact::Branch;
 
-/// Precomputed data of the smooth interval between two events. Scratch memory, rebuilt after each event.
+/// Precomputed data of the time interval between two events, in which all laws are smooth. Scratch memory, recomputed after each event.
 #[derive(Debug, Clone)]
 pub(crate) struct Interval<'a> {
-    /// Contacts whose force is a closed form of u, at constant indentation and with one sense of slip.
+    /// Contacts at constant indentation and with one sense of slip, whose force is a closed form of u.
     pub(crate) closed: Vec<Closed<'a>>,
     /// Contacts that use the general equations.
     pub(crate) others: Vec<usize>,
     /// Open contacts that may touch.
     pub(crate) apart: Vec<usize>,
-    /// Index of each contact among those of closed form.
+    /// Index of each contact in the list `closed`, if its force has a closed form.
     places: Vec<Option<usize>>,
-    /// Properties of model and interval that determine the method.
+    /// Properties of model and interval that determine the integration method.
     pub(crate) scene: SceneTraits,
     pub(crate) traits: IntervalTraits,
-    /// Single slider on which only contacts of closed form act.
+    /// Constants of a single slider on which only contacts with a closed-form force act.
     pub(crate) slider: Option<Slider>,
     /// Contributions of the contacts to the slider's acceleration.
     pub(crate) pulls: Vec<Pull<'a>>,
-    /// Precomputed forces for evaluations, if they have such a form.
+    /// Precomputed forces of the interval, if all forces have such a form.
     pub(crate) kernel: Kernel<'a>,
 }
 
-/// Returns the memory of a list without its items, for items of another type.
+/// Returns the allocated memory of a list, empty, for items of another type.
 fn emptied<T, U>(list: Vec<T>) -> Vec<U> {
     list.into_iter().filter_map(|_| None).collect()
 }
 
 impl<'a> Interval<'a> {
-    /// Returns an interval with memory for all contacts of a model.
+    /// Returns empty interval data with allocated memory for all contacts of a model.
     pub(crate) fn of(model: &Model) -> Self {
         let count = model.contacts.len();
         Self {
@@ -72,7 +71,7 @@ impl<'a> Interval<'a> {
         }
     }
 
-    /// Reuses the memory for another model.
+    /// Reuses the allocated memory for another model.
     pub(crate) fn renewed(mut self, model: &Model) -> Self {
         self.closed.reserve(model.contacts.len());
         self.pulls.reserve(model.contacts.len());
@@ -82,7 +81,7 @@ impl<'a> Interval<'a> {
         Self { scene: SceneTraits::of(model), traits: IntervalTraits::default(), slider: None, ..self }
     }
 
-    /// Returns its memory, empty and without a model.
+    /// Returns the allocated memory of the interval, empty and without a model.
     pub(crate) fn emptied(self) -> Interval<'static> {
         Interval {
             closed: emptied(self.closed),
@@ -97,26 +96,26 @@ impl<'a> Interval<'a> {
         }
     }
 
-    /// Returns contact `c` if its force has a closed form.
+    /// Returns the data of contact `c` if its force has a closed form.
     #[inline]
     pub(crate) fn closed_form(&self, c: usize) -> Option<&Closed<'a>> {
         self.places.get(c).copied().flatten().map(|place| &self.closed[place])
     }
 
-    /// Returns the contacts without a closed form, including open ones.
+    /// Returns the indices of contacts without a closed-form force, including open ones.
     #[inline(always)]
     pub(crate) fn open_form(&self) -> impl Iterator<Item = usize> + '_ {
         self.others.iter().chain(&self.apart).copied()
     }
 
-    /// Whether all contacts have a closed form.
+    /// Returns whether all contacts have a closed-form force.
     #[inline(always)]
     pub(crate) fn is_closed(&self) -> bool {
         self.others.is_empty() && self.apart.is_empty()
     }
 
-    /// Updates the laws of some contacts after an event that changed nothing else. Returns false, without a change, if one of
-    /// them has no closed form before and after the event.
+    /// Updates the laws of some contacts after an event that changed nothing else. Returns false, without a change, if one of these
+    /// contacts has no closed-form force before or after the event.
     pub(crate) fn renew(
         &mut self,
         model: &'a Model,
@@ -145,12 +144,12 @@ impl<'a> Interval<'a> {
         true
     }
 
-    /// Whether every closed contact is in gross slip.
+    /// Returns whether every contact is open or in gross slip.
     fn slides(&self, state: &State) -> bool {
         state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open)
     }
 
-    /// Computes the constants of the interval that begins at a state.
+    /// Computes the constants of the interval that begins at a given state.
     pub(crate) fn begin(&mut self, model: &'a Model, state: &State) {
         self.closed.clear();
         self.others.clear();
@@ -181,7 +180,7 @@ impl<'a> Interval<'a> {
         self.act(model, state);
     }
 
-    /// Computes the forces on a single slider, or the general precomputed forces.
+    /// Computes the constants of the forces on a single slider, or else the general precomputed forces.
     fn act(&mut self, model: &'a Model, state: &State) {
         self.pulls.clear();
         self.slider = match &model.free[..] {
@@ -197,26 +196,26 @@ impl<'a> Interval<'a> {
         }
     }
 
-    /// Whether the interval is solved in one step to the next event.
+    /// Returns whether the interval is solved in one step to the next event.
     #[inline(always)]
     pub(crate) fn leaps(&self) -> bool {
         self.traits.leaps(&self.scene)
     }
 
-    /// Counts the treatment of each contact.
+    /// Adds the treatment of each contact in this interval to the counts of a run.
     pub(crate) fn count(&self, tally: &mut Tally) {
         self.closed.iter().for_each(|closed| tally.interval(closed.index, Treatment::Closed));
         self.others.iter().for_each(|c| tally.interval(*c, Treatment::General));
         self.apart.iter().for_each(|c| tally.interval(*c, Treatment::Apart));
     }
 
-    /// Whether accelerations and powers are constant in the interval.
+    /// Returns whether accelerations and powers are constant in the interval.
     #[inline(always)]
     pub(crate) fn is_constant(&self) -> bool {
         self.traits.is_constant(&self.scene)
     }
 
-    /// Returns the contacts of closed form as they act on a single slider. None if a prescribed motion has no constant rate.
+    /// Returns the constants of a single slider on which closed-form contacts act; `None` if a prescribed motion has no constant rate.
     fn pull(&mut self, slider: &Free) -> Option<Slider> {
         let mut sum = Slider { acceleration: slider.mobility * slider.force, power: 0.0 };
         for closed in &self.closed {

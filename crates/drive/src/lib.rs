@@ -1,16 +1,16 @@
 //! Equations of motion of rigid bodies, actuators, waveforms and frictional contacts, and their simulation.
 //!
-//! A [`Scene`] describes bodies, contacts and drives; [`Model::new`] checks it and computes constants. A run connects the
-//! [`Model`] (constant), the [`State`] (all that the future depends on), a workspace (scratch) and a [`Record`] (output).
-//! [`Model::start`] creates the state. [`run`] advances it along a [`Plan`] to the end; a [`Run`] advances on request.
+//! A [`Scene`] describes bodies, contacts and drives; [`Model::new`] checks this description and computes constants. A run connects the
+//! [`Model`] (constant), the [`State`] (all that determines the future motion), scratch memory and a [`Record`] (output). [`Model::start`]
+//! creates the state. [`run`] integrates the motion to the end, with the settings of a [`Plan`]; a [`Run`] advances on request.
 //!
-//! Contents: [`Scene`], [`Waveform`], [`Plan`]; [`Model`] and its linearisation [`Linearised`]; [`State`]; equations of motion;
-//! event functions and events; runs with event location, with fixed steps and by a reference method; records; [`facts`],
-//! properties known before a run.
+//! The crate contains [`Scene`], [`Waveform`], [`Plan`], [`Model`] with its linearisation [`Linearised`], and [`State`]. Runs are
+//! integrated with event location, with fixed steps or by a reference method, and write records. [`facts`] computes properties known before
+//! a run.
 //!
-//! The coordinates are x, z and the small pitch of each body, as displacements from the reference position in SI units. A
-//! coordinate is free, fixed, balanced or follows a waveform. If no force depends on a velocity, runs use a Runge–Kutta–Nyström
-//! method. Otherwise, and before singular moments, they use the Dormand–Prince method of order 8; stiff models use Radau IIA.
+//! The coordinates are x, z and the small pitch of each body, as displacements from the reference position in SI units. A coordinate is
+//! free, fixed, balanced (quasi-static) or follows a waveform. If no force depends on a velocity, a Runge–Kutta–Nyström method is used.
+//! Otherwise, and near singular moments, the Dormand–Prince method of order 8 is used; stiff models use Radau IIA.
 
 pub mod component;
 mod contact;

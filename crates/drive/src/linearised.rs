@@ -1,8 +1,8 @@
 //! Equations of motion linearised with all contacts stuck: M ẍ + C ẋ + K x = 0.
 //!
-//! The rows of contacts and links are those of the model's Jacobian: a stiffness k along a row a adds k aᵢaⱼ to K. A stuck
-//! contact has 2G\*a along the slide and, if bodies press it, 2E\*a along the normal. Slip reduces the stiffness. The highest
-//! frequency therefore limits time steps.
+//! Rows of the model's Jacobian give the displacements of contacts and springs: a stiffness k along a row a adds k aᵢaⱼ to K. A stuck
+//! contact of radius a has the stiffness 2G\*a along the slide and, if bodies press it, 2E\*a along the normal. Slip reduces the stiffness,
+//! so the highest frequency with stuck contacts limits time steps.
 
 mod blocks;
 mod frame;
@@ -35,11 +35,11 @@ pub struct Indentations {
     pub most: f64,
 }
 
-/// Mass, damping and stiffness matrix of the free coordinates with all contacts stuck. These are the stiffest motions of the model.
+/// Mass, damping and stiffness matrix of the free coordinates with all contacts stuck, the stiffest state of the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linearised {
     coordinates: Vec<String>,
-    /// Displacement of each contact as (index of the coordinate, displacement per coordinate).
+    /// Displacement of each contact as a list of (index of the coordinate, displacement per coordinate).
     contacts: Vec<Row>,
     mass: DVector<f64>,
     damping: DMatrix<f64>,
@@ -53,23 +53,23 @@ pub struct NormalMode {
     pub frequency: f64,
     /// Damping ratio φᵀCφ/(2ω φᵀMφ), exact if damping does not couple the modes; 0 at frequency 0.
     pub damping_ratio: f64,
-    /// Displacement of each coordinate; the largest is 1.
+    /// Displacement of each coordinate in the mode; the largest displacement is 1.
     pub shape: Vec<f64>,
-    /// Displacement u of each contact in this shape.
+    /// Relative displacement u of each contact in the mode.
     pub contacts: Vec<f64>,
 }
 
-/// A displacement as a linear form of the coordinates.
+/// Displacement as a linear form of the coordinates.
 type Row = Vec<(usize, f64)>;
 
 impl Model {
-    /// Returns the range of the indentation of contact `index` from a state at t = 0. Includes the part of a table beyond the end
-    /// of the run. For a coupled contact the largest indentation is an estimate from the initial loads and motions.
+    /// Returns the range of the indentation of contact `index` from a state at t = 0, including waveform tables beyond the end of the run.
+    /// For a coupled contact the largest indentation is an estimate from the initial loads and motions.
     pub fn indentations(&self, state: &State, index: usize) -> Option<Indentations> {
         self.indentations_from(state.memories().get(index)?.apex().d, index)
     }
 
-    /// Returns the same range for an indentation `start` at t = 0, m.
+    /// Returns the range of a contact's indentation for a given indentation `start` at t = 0, m.
     fn indentations_from(&self, start: f64, index: usize) -> Option<Indentations> {
         let contact = self.contacts.get(index)?;
         let Some(waveform) = contact.press.waveform() else {
@@ -84,13 +84,13 @@ impl Model {
         Some(Indentations { least: at(low), start, most: at(high) })
     }
 
-    /// Returns the linearised motions about a `state` with all contacts stuck, each at the indentation (m) that `depth` selects.
+    /// Returns the linearised equations about a `state` with all contacts stuck, each at the indentation (m) that `depth` selects.
     pub fn linearised(&self, state: &State, depth: impl Fn(&Indentations) -> f64) -> Linearised {
         self.whole(|c| self.indentations(state, c).map_or(0.0, |d| depth(&d)))
     }
 
-    /// Returns the angular frequency of contact `index` alone between its two bodies, rad/s, with all members stuck at
-    /// indentation d (m): ω² = k Σ 1/m over the free bodies. It is 0 without friction, and none if neither body is free.
+    /// Returns the resonance ω of contact `index` alone between its two bodies, rad/s, with all identical contacts stuck at indentation d
+    /// (m). The square is ω² = k Σ 1/m over the free bodies. The result is 0 without friction, and `None` if neither body is free.
     pub fn contact_resonance(&self, index: usize, d: f64) -> Option<f64> {
         let contact = self.contacts.get(index)?;
         let mobility = contact.u.mobility(|i| self.free[i].mobility);
@@ -99,7 +99,7 @@ impl Model {
         (mobility > 0.0).then(|| (stiffness * mobility).sqrt())
     }
 
-    /// Returns ω of a single undamped coordinate at the largest indentations, rad/s, without a matrix.
+    /// Returns the natural angular frequency of a single undamped coordinate at the largest indentations, rad/s, without a matrix.
     fn only_frequency(&self) -> Option<f64> {
         let [free] = &self.free[..] else { return None };
         let damped = self.links.iter().any(|link| link.damping != 0.0)
@@ -128,13 +128,13 @@ impl Model {
         eigenvalue.is_finite().then(|| eigenvalue.sqrt())
     }
 
-    /// Whether the model is stiff: a decaying motion is much faster than all others. The stepper `event` then uses implicit steps.
+    /// Returns whether the model is stiff: a decaying motion is much faster than all others. The stepper `event` then uses implicit steps.
     pub fn is_stiff(&self) -> bool {
         self.stiff
     }
 
-    /// Returns the longest stable step of a fixed-step stepper, s, with all contacts stuck at their largest indentation and for
-    /// the states of blocks. Infinite without oscillation and decay; none for adaptive steppers.
+    /// Returns the longest stable step of a fixed-step stepper, s, with all contacts stuck at their largest indentation, including states
+    /// of blocks. The result is infinite without oscillation and decay, and `None` for adaptive steppers.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
         let Reach { motion, state } = stepper.reach()?;
         let motions = self.parts(|d| d.most).iter().map(motion).fold(f64::INFINITY, f64::min);
@@ -142,7 +142,7 @@ impl Model {
     }
 }
 
-/// Adds value·rᵀr to a matrix, the effect of a spring or damper along a row r.
+/// Adds value·rᵀr to a matrix, the contribution of a spring or damper along a row r.
 fn add(matrix: &mut DMatrix<f64>, row: &[(usize, f64)], value: f64) {
     for (i, a) in row {
         for (j, b) in row {
@@ -172,7 +172,7 @@ impl Linearised {
         &self.stiffness
     }
 
-    /// Returns the normal modes by increasing frequency. Empty if the eigenvalue iteration fails.
+    /// Returns the normal modes by increasing frequency; empty if the eigenvalue iteration fails.
     pub fn modes(&self) -> Vec<NormalMode> {
         if self.mass.is_empty() {
             return Vec::new();
@@ -189,7 +189,7 @@ impl Linearised {
         modes
     }
 
-    /// Returns the mode of a unit eigenvector of M^{-1/2} K M^{-1/2}.
+    /// Returns the normal mode that belongs to a unit eigenvector of M^{-1/2} K M^{-1/2}.
     fn mode(&self, frequency: f64, vector: &DVector<f64>) -> NormalMode {
         let damped = vector.dot(&(self.by_mass(&self.damping) * vector));
         let displaced = vector.zip_map(&self.mass, |x, mass| x / mass.sqrt());
@@ -205,21 +205,21 @@ impl Linearised {
         }
     }
 
-    /// Returns M^{-1/2} A M^{-1/2}.
+    /// Returns the matrix A scaled by masses, M^{-1/2} A M^{-1/2}.
     fn by_mass(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let root = self.mass.map(f64::sqrt);
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (root[i] * root[j]))
     }
 
-    /// Returns the largest ω of all modes, rad/s; 0 without modes.
+    /// Returns the largest angular frequency of all normal modes, rad/s; 0 without modes.
     fn highest_frequency(&self) -> f64 {
         self.modes().last().map_or(0.0, |mode| mode.frequency)
     }
 
     /// Returns the longest stable step of velocity Verlet with the predicted velocity in the damping, s; see `stickslip_stepper::Verlet`.
     ///
-    /// A motion x ξⁿ satisfies [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0. It leaves the unit circle at ξ = -1, where an
-    /// eigenvalue of M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω; with one damped mode (hω)² + 8ζhω = 4.
+    /// A motion x ξⁿ satisfies [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0. The step becomes unstable at ξ = -1, where an eigenvalue
+    /// of M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω; with one damped mode (hω)² + 8ζhω = 4.
     fn longest_verlet_step(&self) -> f64 {
         let (stiffness, damping) = (self.by_mass(&self.stiffness), self.by_mass(&self.damping));
         let largest =
@@ -233,8 +233,8 @@ impl Linearised {
         longest(undamped.min(1.0 / rate), |h| largest(h).is_some_and(|value| value <= 1.0))
     }
 
-    /// Returns the longest stable step of the classical Runge–Kutta method, s: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for
-    /// every λ of λ²M + λC + K. Without damping h = √8/ω.
+    /// Returns the longest stable step of the classical Runge–Kutta method, s: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for every
+    /// eigenvalue λ of λ²M + λC + K. Without damping h = √8/ω.
     fn longest_rk4_step(&self) -> f64 {
         let frequency = self.highest_frequency();
         if self.damping.amax() == 0.0 {
@@ -244,7 +244,7 @@ impl Linearised {
         rates.iter().filter(|rate| rate.modulus() > 0.0).map(rk4_reach).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns all λ of λ²M + λC + K, 1/s, as eigenvalues of a first-order system in x and v/`frequency`.
+    /// Returns all eigenvalues λ of λ²M + λC + K, 1/s, from a first-order system in x and v/`frequency`.
     fn rates(&self, frequency: f64) -> Vec<Complex<f64>> {
         let n = self.mass.len();
         let mut matrix = DMatrix::zeros(2 * n, 2 * n);
@@ -256,19 +256,19 @@ impl Linearised {
     }
 }
 
-/// Returns all eigenvalues of a matrix. Empty if an entry is not finite or the iteration fails.
+/// Returns all eigenvalues of a matrix; empty if an entry is not finite or the iteration fails.
 fn eigenvalues(matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
     let sweeps = matrix.nrows() * SWEEPS;
     let schur = finite(matrix).and_then(|matrix| Schur::try_new(matrix, f64::EPSILON, sweeps.max(1)));
     schur.map_or_else(Vec::new, |schur| schur.complex_eigenvalues().iter().copied().collect())
 }
 
-/// Returns the matrix if all entries are finite; the iterations of nalgebra would not end otherwise.
+/// Returns the matrix if all entries are finite, because otherwise the iterations of nalgebra would not end.
 fn finite(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
     matrix.iter().all(|entry| entry.is_finite()).then_some(matrix)
 }
 
-/// Returns eigenvalues and eigenvectors of a symmetric matrix. None if an entry is not finite or the iteration fails.
+/// Returns eigenvalues and eigenvectors of a symmetric matrix; `None` if an entry is not finite or the iteration fails.
 fn symmetric(matrix: DMatrix<f64>) -> Option<SymmetricEigen<f64, nalgebra::Dyn>> {
     let sweeps = matrix.nrows() * SWEEPS;
     SymmetricEigen::try_new(finite(matrix)?, f64::EPSILON, sweeps.max(1))

@@ -1,7 +1,7 @@
-//! Choice of the integration method, with its reason.
+//! Choice of the integration method for each time interval, with the reason for the choice.
 //!
-//! A run calls [`choice`] at the beginning of every interval between two events, and [`treatment`] for every contact.
-//! [`Model::expected`] calls the same functions for all possible intervals, so the prediction agrees with the run.
+//! A run calls [`choice`] at the beginning of every interval between two events, and [`treatment`] for every contact. [`Model::expected`]
+//! calls the same functions for all possible intervals, so the prediction agrees with the run.
 //!
 //! | method | free coordinates | forces |
 //! | --- | --- | --- |
@@ -12,8 +12,8 @@
 //! | [`Method::Radau`] | any | stiff |
 //! | [`Method::DormandPrince`] | any | all others |
 //!
-//! At tolerances down to [`TIGHTEST_BRIEF`] both explicit methods have a variant with fewer stages, [`Method::brief`], for steps
-//! that an event will soon cut. Graded steps always use Dormand–Prince, because their stages need velocities.
+//! At tolerances down to [`TIGHTEST_BRIEF`] both explicit methods have a variant of lower order with fewer stages, [`Method::brief`], used
+//! for steps that an event will soon cut. Graded steps always use Dormand–Prince, because their stages need velocities.
 
 mod expected;
 mod tally;
@@ -27,17 +27,17 @@ pub use why::Why;
 use crate::model::Model;
 use stickslip_contact::Branch;
 
-/// Smallest tolerance at which steps with few stages are used.
+/// Smallest tolerance at which explicit methods with fewer stages are used near events.
 const TIGHTEST_BRIEF: f64 = 1e-6;
 
 /// Integration method of a time interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Method {
-    /// Without free coordinates: the contacts move along their prescribed path from event to event.
+    /// Steps from event to event along prescribed paths of the contacts, without free coordinates.
     Walk,
     /// Closed-form oscillation of a single slider from event to event, by one quadrature.
     Swing,
-    /// Parabolas under constant forces, without evaluations.
+    /// Parabolic motion under constant forces, without evaluations of the equations.
     Parabola,
     /// Runge–Kutta–Nyström steps of order 8(6).
     Nystrom,
@@ -49,7 +49,7 @@ pub enum Method {
     Brief,
     /// Implicit Radau IIA steps of order 9, for stiff models.
     Radau,
-    /// Graded step of order 8(5,3), with stages concentrated near a singular moment at one of its ends.
+    /// Graded step of order 8(5,3), with stages concentrated near a singular moment (power 3/2 of time) at one end of the step.
     Graded,
     /// Runge–Kutta steps with step doubling on the full force law, where events accumulate.
     Whole,
@@ -58,7 +58,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Returns the variant with fewer stages for a step that an event will soon cut. None if there is none.
+    /// Returns the variant with fewer stages for a step that an event will soon cut; `None` if the method has no such variant.
     pub(crate) fn in_few_stages(self) -> Option<Self> {
         match self {
             Self::Nystrom => Some(Self::BriefNystrom),
@@ -67,9 +67,9 @@ impl Method {
         }
     }
 
-    /// Returns that variant if it is accurate enough. None below a tolerance, and for rows of springs under constant load, whose
-    /// springs slip one by one.
-    // Few stages miss the kinks of single springs. At small tolerances they save nothing.
+    /// Returns the variant with fewer stages if it is accurate enough; `None` below a tolerance, and for rows of springs under constant
+    /// load.
+    // In such rows, few stages miss the kinks of single springs, which slip one by one. At small tolerances, few stages save nothing.
     pub(crate) fn brief(self, model: &Model, tolerance: f64) -> Option<Self> {
         let slips = |contact: &Contact| !contact.engine.branches() && !contact.inert && contact.is_constant();
         let few = self.in_few_stages()?;
@@ -80,26 +80,26 @@ impl Method {
 /// Treatment of a contact between two events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Treatment {
-    /// Never evaluated: it is never pressed.
+    /// The contact is never evaluated, because it is never pressed.
     Spared,
-    /// Open: only its gap is monitored.
+    /// The contact is open, and only its gap is monitored.
     Apart,
-    /// The force is a closed form of u; the memory is updated at the next event only.
+    /// The force is a closed form of u; the slip memory is updated at the next event only.
     Closed,
-    /// General equations; the memory is updated in every step.
+    /// The contact uses the general equations; its slip memory is updated in every step.
     General,
 }
 
-/// Properties of a model that determine the method.
+/// Properties of a model that determine the integration method.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SceneTraits {
     /// Number of free coordinates.
     pub(crate) free: usize,
-    /// Whether coordinates are balanced.
+    /// Whether the model has quasi-static ("balanced") coordinates.
     pub(crate) balanced: bool,
     /// Whether the model is stiff.
     pub(crate) stiff: bool,
-    /// Reason why forces depend on velocities, if they do.
+    /// Reason why forces depend on velocities; `None` if no force does.
     pub(crate) velocities: Option<Why>,
     /// Whether springs, dampers or actuators act.
     pub(crate) links: bool,
@@ -107,18 +107,18 @@ pub(crate) struct SceneTraits {
     pub(crate) loads: bool,
 }
 
-/// Properties of an interval between two events that determine the method.
+/// Properties of a time interval between two events that determine the integration method.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct IntervalTraits {
-    /// Whether every closed contact is in gross slip.
+    /// Whether every contact is open or in gross slip.
     pub(crate) slides: bool,
-    /// Whether the prescribed motions of the contacts of closed form have constant rates.
+    /// Whether the prescribed motions of all contacts with closed-form forces have constant rates.
     pub(crate) straight: bool,
     /// Whether a contact uses the general equations.
     pub(crate) general: bool,
-    /// Whether a gap may close.
+    /// Whether the gap of an open contact may close.
     pub(crate) gap: bool,
-    /// Whether a closed-form oscillation was tried without success. It is then not tried again until the next event.
+    /// Whether the closed-form oscillation was tried without success in this interval, so that it is not tried again before the next event.
     pub(crate) asked: bool,
 }
 
@@ -135,7 +135,7 @@ impl SceneTraits {
     }
 }
 
-/// Returns the reason why forces, or rates of integrals, depend on velocities.
+/// Returns the reason why forces, or rates of integrals, depend on velocities; `None` if they do not.
 fn velocities(model: &Model) -> Option<Why> {
     let damped = model.links.iter().any(|link| link.damping > 0.0);
     let stuck = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
@@ -152,23 +152,23 @@ fn velocities(model: &Model) -> Option<Why> {
 }
 
 impl IntervalTraits {
-    /// Whether only contacts of closed form and loads act.
+    /// Returns whether only contacts with closed-form forces and loads act.
     fn is_closed(&self, scene: &SceneTraits) -> bool {
         !self.general && !scene.links
     }
 
-    /// Whether in addition their prescribed motions have constant rates.
+    /// Returns whether only closed-form contacts and loads act, and all prescribed motions have constant rates.
     pub(crate) fn is_simple(&self, scene: &SceneTraits) -> bool {
         self.straight && self.is_closed(scene)
     }
 
-    /// Whether all forces are constant.
+    /// Returns whether all forces are constant in the interval.
     pub(crate) fn is_constant(&self, scene: &SceneTraits) -> bool {
         self.slides && self.is_simple(scene) && !scene.loads
     }
 
-    /// Whether the interval of a single slider can be solved in one step to its next event. In gross slip this includes
-    /// sinusoidal prescribed motions, which do not change the forces.
+    /// Returns whether the interval of a single slider can be solved in one step to its next event. In gross slip this includes sinusoidal
+    /// prescribed motions, which do not change the forces.
     #[inline(always)]
     pub(crate) fn leaps(&self, scene: &SceneTraits) -> bool {
         let has_form = self.is_closed(scene) && (self.straight || self.slides);
@@ -176,7 +176,7 @@ impl IntervalTraits {
     }
 }
 
-/// Returns the method of an interval, with its reason.
+/// Returns the integration method of an interval, with the reason.
 pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method, Why) {
     // A parabola is exact for any number of coordinates and comes first.
     if scene.free > 0 && interval.is_constant(scene) {
@@ -192,7 +192,7 @@ pub(crate) fn choice(scene: &SceneTraits, interval: &IntervalTraits) -> (Method,
     }
 }
 
-/// Returns the method of intervals without a closed form, with its reason.
+/// Returns the integration method of intervals without a closed form, with the reason.
 pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     match scene.velocities {
         // Positions follow from time; steps lead from event to event.
@@ -205,12 +205,12 @@ pub(crate) fn stepping(scene: &SceneTraits) -> (Method, Why) {
     }
 }
 
-/// Whether a contact on a branch has no damping force. Only sticking springs are damped, and in gross slip none stick.
+/// Returns whether a slipping contact has no damping force. Only sticking springs are damped, and no spring sticks in gross slip.
 pub(crate) fn is_undamped(contact: &Contact, branch: &Branch) -> bool {
     contact.interface.damping() == 0.0 || branch.is_gross()
 }
 
-/// Returns the treatment of a contact under a law, with its reason. `followed` says whether the prescribed part of u has a closed form.
+/// Returns the treatment of a contact under a law, with the reason. `followed` returns whether the prescribed part of u has a closed form.
 #[inline(always)]
 pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() -> bool) -> (Treatment, Why) {
     match (mode, &contact.press) {

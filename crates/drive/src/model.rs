@@ -1,7 +1,7 @@
-//! Constants of a drive, checked and assembled.
+//! Model of a drive: constants, checked and assembled from a [`Scene`](crate::Scene).
 //!
-//! [`Model::new`] checks a [`Scene`](crate::Scene) completely and reports errors by part and field; a run can fail only for its
-//! motion. A model never changes and may be shared by many runs. Rotations are small, so lengths between bodies are linear forms
+//! [`Model::new`] checks a [`Scene`](crate::Scene) completely and reports errors by part and field. Later, a run can fail only because of
+//! its motion. A model never changes and may be shared by many runs. Rotations are small, so displacements between bodies are linear forms
 //! of the coordinates ([`Measure`]).
 
 mod balanced;
@@ -28,12 +28,12 @@ use crate::contact::{Contact, Press};
 use crate::scene::Axis;
 use stickslip_contact::Interface;
 
-/// Smallest scale of work relative to that of the contact with the largest work.
-// Work is proportional to the square of a friction coefficient; without this limit, tolerances of nearly frictionless contacts
-// would be below rounding.
+/// Smallest natural scale of work, relative to that of the contact with the largest work.
+// Work is proportional to the square of the friction coefficient; without this limit, tolerances of nearly frictionless contacts would be
+// below rounding.
 const LEAST_WORK: f64 = 1e-4;
 
-/// Constants of a drive, made from a valid [`Scene`](crate::Scene).
+/// Model of a drive, made from a valid [`Scene`](crate::Scene); it contains constants only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     /// Waveforms in the order of the [`Scene`](crate::Scene); unused ones are constant.
@@ -44,34 +44,34 @@ pub struct Model {
     /// Contacts in the order of the [`Scene`](crate::Scene).
     pub(crate) contacts: Vec<Contact>,
     pub(crate) blocks: Vec<Wired>,
-    /// Balanced coordinates by body, in the order x, z.
+    /// Quasi-static ("balanced") coordinates by body, in the order x, z.
     pub(crate) balanced: Vec<Balanced>,
     /// Springs and then actuators that can exert a varying force.
     pub(crate) links: Vec<Link>,
-    /// Varying loads; constant ones are in the force of their coordinate.
+    /// Loads that vary in time; constant loads are in the force of their coordinate.
     pub(crate) loads: Vec<Load>,
     /// Number of contacts whose force is a state during growth in full stick.
     pub(crate) growing: usize,
     /// Whether a run starts in static equilibrium.
     pub(crate) equilibrium: bool,
-    /// Parts without effect, which the model omits.
+    /// Parts of the [`Scene`](crate::Scene) without effect, which the model omits.
     pub(crate) spared: Spared,
-    /// Time step of the numerical derivative for balanced coordinates, s.
+    /// Time step of the numerical derivative for quasi-static coordinates, s.
     pub(crate) moment: f64,
     /// Largest |λ| of the motions e^{λt} with all contacts stuck at their largest indentation, 1/s.
     pub(crate) fastest: f64,
-    /// Whether the model is stiff.
+    /// Whether the model is stiff, so that implicit steps are used.
     pub(crate) stiff: bool,
 }
 
 /// Type of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Binding {
-    /// Fixed at this position, m or rad.
+    /// Coordinate that is fixed at this position, m or rad.
     Held(f64),
     /// Free coordinate by index.
     Free(usize),
-    /// Follows a signal, given by its index.
+    /// Coordinate that follows a signal, given by its index.
     Driven(usize),
 }
 
@@ -79,7 +79,7 @@ pub(crate) enum Binding {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Body {
     pub(crate) name: String,
-    /// Types of its x, z and pitch.
+    /// Types of the body's coordinates x, z and pitch.
     pub(crate) bindings: [Binding; 3],
 }
 
@@ -96,25 +96,25 @@ pub(crate) struct Free {
     pub(crate) force: f64,
     /// Initial position and velocity.
     pub(crate) start: (f64, f64),
-    /// Whether only contacts depend on it, so that its origin may move with it.
+    /// Whether only contacts depend on the coordinate, so that its origin may move along with the body.
     pub(crate) travels: bool,
     /// Natural scales of position and velocity, m and m/s or rad and rad/s.
     pub(crate) scale: (f64, f64),
 }
 
-/// Natural scales of a contact at its largest expected indentation. The stepper's tolerance is relative to them.
+/// Natural scales of a contact at its largest expected indentation. Tolerances of the stepper are relative to these scales.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NaturalScale {
     /// Gross slip displacement u_c, m.
     pub displacement: f64,
     /// Friction limit μF_N, N.
     pub force: f64,
-    /// u_c ω, m/s, with the largest natural angular frequency ω of its bodies, or that of the drive if none is free.
+    /// Natural velocity u_c ω, m/s, with the largest natural angular frequency ω of the contact's bodies; without free ones, of the drive.
     pub velocity: f64,
 }
 
-/// Spring, damper or actuator with the force k(s-e) + c(ṡ-ė) + preload on the second body. e is the displacement of its second
-/// end minus that of the first.
+/// Spring, damper or actuator with the force k(s-e) + c(ṡ-ė) + preload on the second body. The elongation e is the displacement of the
+/// second end minus that of the first.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Link {
     /// Elongation e, m.
@@ -123,30 +123,30 @@ pub(crate) struct Link {
     pub(crate) stiffness: f64,
     /// Damping c, N s/m.
     pub(crate) damping: f64,
-    /// Preload, N; pushes the ends apart if positive.
+    /// Preload, N; a positive preload pushes the ends apart.
     pub(crate) preload: f64,
     /// Free stroke s, m.
     pub(crate) stroke: Stroke,
 }
 
-/// Free stroke of a link.
+/// Free stroke of a spring or actuator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stroke {
     Constant(f64),
     Driven(usize),
 }
 
-/// Varying load on a free coordinate: arm times waveform.
+/// Load on a free coordinate that varies in time: arm times waveform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Load {
     pub(crate) free: usize,
-    /// 1, or m for the moment of a force.
+    /// Factor 1 for a force, or lever arm in m for the moment of a force.
     pub(crate) arm: f64,
     pub(crate) waveform: usize,
 }
 
 impl Model {
-    /// Returns an empty model.
+    /// Returns an empty model without bodies.
     pub(crate) fn blank() -> Self {
         Self {
             waveforms: Vec::new(),
@@ -176,31 +176,31 @@ impl Model {
         self.contacts.iter().map(|c| (c.name.as_str(), &c.interface))
     }
 
-    /// Whether any waveform jumps. Within a jump gross slip may begin without an event.
+    /// Returns whether any waveform jumps. During a jump gross slip may begin without an event.
     #[must_use]
     pub fn jumps(&self) -> bool {
         self.waveforms.iter().any(Waveform::has_jumps)
     }
 
-    /// Returns the gross slip displacement u_c (m) and the normal force of one contact (N) of contact `index` at t = 0.
+    /// Returns the gross slip displacement u_c (m) of contact `index` and the normal force of one contact (N), both at t = 0.
     pub fn contact_scale(&self, index: usize) -> Option<(f64, f64)> {
         let contact = self.contacts.get(index)?;
         let d = self.indentation(contact);
         Some((contact.interface.gross_slip_displacement(d), contact.interface.normal_force(d)))
     }
 
-    /// Returns the largest width 2a of contact `index`, m; 0 if it is never pressed.
+    /// Returns the largest width 2a of contact `index`, m; 0 if the contact is never pressed.
     pub fn contact_width(&self, index: usize) -> Option<f64> {
         let deepest = self.indentations(&self.rest(), index)?.most;
         self.contacts.get(index).map(|contact| 2.0 * contact.interface.profile().radius(deepest))
     }
 
-    /// Returns the angular frequency of small oscillations with this contact stuck, rad/s, the natural frequency of its events.
+    /// Returns the natural angular frequency of contact `index`, rad/s, of small oscillations with the contact stuck.
     pub fn contact_frequency(&self, index: usize) -> Option<f64> {
         self.contacts.get(index).map(|c| c.natural.frequency)
     }
 
-    /// Returns the natural scales of contact `index`, for one of its identical members.
+    /// Returns the natural scales of contact `index`, for one of the identical contacts.
     pub fn contact_natural(&self, index: usize) -> Option<NaturalScale> {
         self.contacts.get(index).map(|c| NaturalScale {
             displacement: c.natural.displacement,
@@ -209,10 +209,10 @@ impl Model {
         })
     }
 
-    /// Returns the natural scale of work, J: μF_N u_c of the smallest contact, at least [`LEAST_WORK`] of the largest.
+    /// Returns the natural scale of work, J: μF_N u_c of the smallest contact, at least [`LEAST_WORK`] of that of the largest.
     ///
-    /// Without friction it is the largest mv² of a free coordinate at its natural velocity, or the energy that balanced
-    /// coordinates store; otherwise 1 J.
+    /// Without friction the scale is the largest mv² of a free coordinate at its natural velocity, or the smallest stored energy of a
+    /// quasi-static coordinate; otherwise 1 J.
     pub(crate) fn work_scale(&self) -> f64 {
         let works = || self.contacts.iter().map(Contact::natural_work);
         let smallest = works().filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);

@@ -12,24 +12,24 @@ pub struct Plan {
     pub stepper: Stepper,
     /// Limits of a run.
     pub limits: Limits,
-    /// Interval of the rows of the trace, s. None: only the first and the last row.
+    /// Time between two rows of the trace, s. None writes only the first and the last row.
     pub every: Option<f64>,
-    /// Early end at constant step length, if wanted.
+    /// Early end of the run at a steady step length, if requested.
     pub until_steady: Option<UntilSteady>,
 }
 
-/// Early end of a run when the step length is steady: each of the last three steps agrees with the previous one. The run ends
-/// with a period; up to there its bits do not change.
+/// Early end of a run at a steady step length: each of the last three steps of the drive agrees with the previous one. The run ends with a
+/// period of the waveform; results up to that time are identical to those of a full run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UntilSteady {
-    /// Index in [`Scene::waveforms`](crate::Scene::waveforms) of the waveform whose periods are counted from its delay. Without a
-    /// period the run does not end early.
+    /// Index in [`Scene::waveforms`](crate::Scene::waveforms) of the waveform whose periods are counted from its delay. A waveform without
+    /// a period causes no early end.
     pub waveform: usize,
-    /// Index in [`Scene::bodies`](crate::Scene::bodies) of the body whose displacement along x per period is the step length. It
-    /// must be free.
+    /// Index in [`Scene::bodies`](crate::Scene::bodies) of the body whose displacement along x per period is the step length. The body must
+    /// be free.
     pub body: usize,
-    /// Allowed change, above 0, relative to the step length or to the natural length of the body (u_c of its contacts), whichever
-    /// is longer.
+    /// Allowed change of the step length, above 0, relative to the step length or to the natural length of the body (u_c of its contacts),
+    /// whichever is longer.
     pub change: f64,
 }
 
@@ -62,7 +62,7 @@ impl Plan {
 
 /// Stepper. Tolerances are relative to natural scales (u_c, μF_N and the corresponding velocities).
 ///
-/// Fixed steps and the reference method follow straight paths of contacts: under slip they have at most order 2.
+/// With fixed steps or the reference method, contacts follow one straight path per step; under slip the order is at most 2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stepper {
     /// Methods of order 8 and closed forms, with event location.
@@ -80,10 +80,10 @@ pub enum Stepper {
         /// Step length, s.
         step: f64,
     },
-    /// Frames of fixed length with a bounded number of Runge–Kutta steps of order 4, for real-time simulation.
+    /// Frames (time intervals of fixed length) with a bounded number of Runge–Kutta steps of order 4, for real-time simulation.
     ///
-    /// Steps end at corners and jumps of waveforms. The memory of contacts is limited. The number of steps in a frame is a
-    /// constant of the model: [`Model::substeps`](crate::Model::substeps).
+    /// Steps end at corners and jumps of waveforms. The number of reversals in a slip memory is limited. The number of steps in a frame is
+    /// a constant of the model: [`Model::substeps`](crate::Model::substeps).
     Frames {
         /// Length of a frame, s.
         length: f64,
@@ -104,7 +104,7 @@ pub enum Accuracy {
     Tolerance(f64),
     /// Step length, s.
     Step(f64),
-    /// Frames with a number of steps that follows from an allowed error.
+    /// Frames of fixed length; the number of steps in a frame follows from an allowed error.
     Frame {
         /// Length of a frame, s.
         length: f64,
@@ -149,27 +149,27 @@ impl Stepper {
         }
     }
 
-    /// Returns the name in scenarios and results.
+    /// Returns the name of the stepper in scenarios and results.
     pub fn name(self) -> &'static str {
         self.facts().name
     }
 
-    /// Returns its tolerance, step or frame.
+    /// Returns the tolerance, step or frame of the stepper.
     pub fn accuracy(self) -> Accuracy {
         self.facts().accuracy
     }
 
-    /// Whether its steps end at events, including jumps of waveforms.
+    /// Whether steps of this stepper end at events, including jumps of waveforms.
     pub fn locates_events(self) -> bool {
         self.facts().locates_events
     }
 
-    /// Whether its steps end at corners of waveforms, so that jumps are separate paths.
+    /// Whether steps of this stepper end at corners of waveforms, so that contacts follow a jump on a separate path.
     pub fn ends_at_corners(self) -> bool {
         self.locates_events() || matches!(self, Self::Frames { .. })
     }
 
-    /// Returns its stability limits; none for adaptive steppers.
+    /// Returns the stability limits of the stepper; none for adaptive steppers.
     pub(crate) fn reach(self) -> Option<Reach> {
         self.facts().reach
     }

@@ -1,8 +1,8 @@
 //! Gaussian quadrature with an error estimate.
 //!
 //! The time of an oscillation or a lift-off is a mean of a smooth function over [0, 1]. Rules with 4, 8, 16 and 32 nodes are tried in
-//! order. Each estimates its error from the last coefficients of the interpolating polynomial. Rules are constants. From turning point to
-//! turning point the nodes are those of Gauss–Chebyshev, equally spaced in the angle, because the function is periodic there.
+//! order. Each rule estimates its error from the last coefficients of the interpolating polynomial. Rules are compile-time constants.
+//! Between two turning points the function is periodic in an angle, so equally spaced Gauss–Chebyshev nodes are used.
 
 use crate::sine::sine;
 use std::array;
@@ -10,14 +10,14 @@ use std::f64::consts::PI;
 
 /// Number of nodes of the finest rule.
 const MOST: usize = 32;
-/// Errors below which rules with 4, 8 and 16 nodes are not tried.
+/// Requested errors below which rules with 4, 8 and 16 nodes are not tried.
 const HOPELESS: [f64; 3] = [1e-3, 1e-8, 1e-16];
 /// Safety factor of the error estimate c².
 const CAUTION: f64 = 10.0;
-/// Number of Newton steps to a node; three from Tricomi's guess reach the last place.
+/// Number of Newton steps to a node; three steps from Tricomi's approximation reach rounding.
 const NEWTON: usize = 4;
 
-/// Number of values that are evaluated together.
+/// Number of values that are evaluated together (SIMD).
 pub(crate) const LANES: usize = 4;
 
 /// Values that are evaluated together.
@@ -34,7 +34,7 @@ pub(crate) fn total([a, b, c, d]: Lanes) -> f64 {
 pub(crate) struct Nodes {
     /// Positions in the interval, 0 to 1.
     pub(crate) at: Lanes,
-    /// Weights of the mean, and of the last two Legendre coefficients of the interpolating polynomial.
+    /// Weights of the mean, and weights of the last two Legendre coefficients of the interpolating polynomial.
     pub(crate) shares: [Lanes; 3],
 }
 
@@ -57,10 +57,10 @@ pub(crate) struct Rule {
 /// Gauss–Legendre rules with 4 to 32 nodes, exact for polynomials up to degree 7 to 63.
 pub(crate) static RULES: [Rule; 4] = [Rule::new(4), Rule::new(8), Rule::new(16), Rule::new(MOST)];
 
-/// Gauss–Chebyshev rules for an arc.
+/// Gauss–Chebyshev rules with 4 to 32 nodes.
 pub(crate) static ARCS: [Rule; 4] = [Rule::arc(4), Rule::arc(8), Rule::arc(16), Rule::arc(MOST)];
 
-/// Returns the mean over the angle θ from 0 to π of a smooth function of sin²(θ/2), as [`mean`].
+/// Returns the mean over the angle θ from 0 to π of a smooth function of sin²(θ/2), with the rule chosen as in [`mean`].
 #[inline]
 pub(crate) fn mean_over_arc(allowed: f64, f: impl Fn(Lanes) -> Lanes) -> Mean {
     first_that_serves(&ARCS, (allowed, allowed), f)
@@ -68,7 +68,7 @@ pub(crate) fn mean_over_arc(allowed: f64, f: impl Fn(Lanes) -> Lanes) -> Mean {
 
 /// Returns the mean of a function over [0, 1] by the coarsest rule whose relative error is below `allowed`, or by the finest.
 ///
-/// `part` is the length of [0, 1] relative to the range over which the function changes; it selects the first rule.
+/// `part` is the length of [0, 1] relative to the range over which the function changes; it determines the first rule tried.
 #[inline]
 pub(crate) fn mean(allowed: f64, part: f64, f: impl Fn(Lanes) -> Lanes) -> Mean {
     // On a part of the range the coefficients decrease faster.
@@ -133,7 +133,7 @@ impl Rule {
         rule
     }
 
-    /// Returns its nodes in groups of four.
+    /// Returns the nodes of the rule in groups of four.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = &Nodes> {
         self.nodes[..self.count / LANES].iter()
     }
@@ -150,8 +150,8 @@ impl Rule {
         nodes.shares[2][lane] = first;
     }
 
-    /// Returns the mean by this rule. A rule of n nodes is exact up to degree 2n - 1. If the coefficients of the interpolating
-    /// polynomial have decreased to c, its error is about c².
+    /// Returns the mean by this rule. A rule of n nodes is exact up to degree 2n - 1. If the coefficients of the interpolating polynomial
+    /// have decreased to c, the error of the mean is about c².
     #[inline(always)]
     fn mean(&self, f: impl Fn(Lanes) -> Lanes) -> Mean {
         let mut sums = [[0.0; LANES]; 3];
@@ -168,7 +168,7 @@ impl Rule {
     }
 }
 
-/// Returns position, unnormalised weight and the factors of the last two Legendre coefficients of node `i` of n.
+/// Returns, for node `i` of n, its position, unnormalised weight and factors of the last two Legendre coefficients.
 const fn node(n: usize, i: usize) -> [f64; 4] {
     let (count, mut steps) = (n as f64, 0);
     // Tricomi's guess.

@@ -16,24 +16,24 @@ use crate::scene::Axis;
 use crate::state::State;
 use stickslip_contact::{ContactState, Memory, Outcome, Segment};
 
-/// Receiver of a run's output. It does not affect the trajectory.
+/// Receiver of a run's output. Recording does not affect the trajectory.
 ///
-/// Rows are in ascending time at the plan's interval, including the first and the last of the run. Events are in order between them.
+/// Rows come in ascending time at the plan's interval, including the first and the last of the run. Events come between rows, in order.
 pub trait Record {
     /// Receives a row with one value per [`Model::channels`].
     fn row(&mut self, values: &[f64]);
 
-    /// Receives an event and the row of values after it.
+    /// Receives an event and the row of values immediately after it.
     fn event(&mut self, event: &Event, values: &[f64]);
 
-    /// Returns the next time at which [`Self::look`] is to be called, s; none for never again. Called before the run and after
-    /// every sample. Times ascend; those before the start of the run are skipped.
+    /// Returns the next time at which [`Self::look`] is to be called, s; none to request no further sample. Called before the run and after
+    /// every sample. Times must ascend; times before the start of the run are skipped.
     fn next_look(&mut self) -> Option<f64> {
         None
     }
 
-    /// Receives the memories of the contacts at the requested time (s), in order, as if a step ended there. Omitted if a contact
-    /// exceeds its row or is not finite.
+    /// Receives the slip memories of the contacts at the requested time (s), in order, as if a step ended there. The call is omitted if a
+    /// contact leaves the range of its spring row or is not finite.
     fn look(&mut self, t: f64, memories: &[Memory]) {
         let _ = (t, memories);
     }
@@ -43,33 +43,33 @@ pub trait Record {
         false
     }
 
-    /// Receives a path that the memory of contact `c` (its index) has committed. Paths are in order; those of a step precede the
-    /// next sample.
+    /// Receives a path that the slip memory of contact `c` (index) has committed. Paths come in order of time. All paths of a step precede
+    /// the next sample.
     ///
-    /// Displacements count from the initial positions. A path that is not committed at the end of a run is part of its last sample only.
+    /// Displacements are relative to the initial positions. A path not committed at the end of a run appears in its last sample only.
     fn path(&mut self, c: usize, segment: Segment) {
         let _ = (c, segment);
     }
 
-    /// Returns the next time at which [`Self::mark`] is to be called, s; none for never again. A time within four units in the
-    /// last place of the end of a step is that end.
+    /// Returns the next time at which [`Self::mark`] is to be called, s; none to request no further row. A time within four units in the
+    /// last place of the end of a step is replaced by that end.
     fn next_mark(&mut self) -> Option<f64> {
         None
     }
 
-    /// Receives the row at the requested time. It is independent of the interval of rows.
+    /// Receives the row at the time requested by [`Self::next_mark`], independently of the plan's interval.
     fn mark(&mut self, values: &[f64]) {
         let _ = values;
     }
 
-    /// Returns the bodies, by index, whose extent along x is wanted: the moving body and its drive. Called before the run. Every
-    /// step is then evaluated.
+    /// Returns the indices of the bodies whose extent along x is requested: the moving body and its drive. Called before the run. With such
+    /// bodies every step is evaluated.
     fn watched(&self) -> [Option<usize>; 2] {
         [None; 2]
     }
 
-    /// Receives the extents of these bodies along x since the last call: before every mark, and whenever a run is paused. Within
-    /// a step x is the cubic with positions and velocities of both ends.
+    /// Receives the extents of the [`Self::watched`] bodies along x since the last call, before every mark and whenever a run pauses.
+    /// Within a step, x is the cubic Hermite interpolant of positions and velocities.
     fn extents(&mut self, extents: [Extent; 2]) {
         let _ = extents;
     }
@@ -86,23 +86,23 @@ pub trait Record {
         [0.0, f64::INFINITY]
     }
 
-    /// Receives the state at the end of an interval between two located events, still with the laws of the interval. Memories
-    /// that wait for their own event are not updated.
+    /// Receives the state at the end of an interval between two located events, still with the laws of the interval. Slip memories that are
+    /// committed only at a later event are not updated.
     fn leaves(&mut self, state: &State) {
         let _ = state;
     }
 
-    /// Receives the state at the beginning of an interval with its laws: at the start of a run with event location, and after every event.
+    /// Receives the state, with its laws, at the start of an interval between events: when a run begins, and after every located event.
     fn enters(&mut self, state: &State) {
         let _ = state;
     }
 
-    /// Whether events are wanted; each needs an evaluation for its row.
+    /// Whether events are to be recorded; each event needs an evaluation for its row.
     fn wants_events(&self) -> bool {
         true
     }
 
-    /// Whether events come with a row. Otherwise the row is empty and no evaluation is needed.
+    /// Whether events are recorded with a row of values. Otherwise the row is empty and no evaluation is needed.
     fn wants_event_rows(&self) -> bool {
         true
     }
@@ -214,15 +214,15 @@ struct Books {
     /// Work of prescribed motions, loads and gravity since the start.
     input: f64,
     kinetic: f64,
-    /// Stored in contacts (both directions), links and blocks.
+    /// Energy stored in contacts (normal and tangential), links and blocks.
     elastic: f64,
     friction: f64,
 }
 
 /// Fills `row` with the channels at time t (s); `y` returns a component of the state.
 ///
-/// The balance error is input - (kinetic + elastic - origin) - friction - damping, J. It is 0 except for integration errors,
-/// because each energy is computed separately.
+/// The balance error is input - (kinetic + elastic - origin) - friction - damping, J. Each energy is computed separately, so the balance
+/// error consists of integration errors only.
 pub(crate) fn fill(
     equations: &Equations<'_>,
     state: &State,
@@ -260,7 +260,7 @@ pub(crate) fn fill(
     row.extend([books.input, books.kinetic, books.elastic, books.friction, damping, error]);
 }
 
-/// Returns the error of the energy balance and the sum of all energies, J, which determines its rounding. `row` is scratch.
+/// Returns the error of the energy balance, and the sum of all energies as a measure of its rounding, J. `row` is scratch.
 pub(crate) fn balance(
     equations: &Equations<'_>,
     state: &State,
@@ -273,8 +273,8 @@ pub(crate) fn balance(
     (books.last().copied().unwrap_or(0.0), books.iter().map(|energy| energy.abs()).sum())
 }
 
-/// Appends the columns of a contact, and adds its energies to the balance. Forces and energies are sums over all `count` members;
-/// displacement, depth and stick radius are those of one.
+/// Appends the columns of a contact to a row and adds its energies to the balance. Forces and energies are sums over all identical
+/// contacts; displacement, indentation and stick radius are those of one contact.
 fn contact_columns(
     equations: &Equations<'_>,
     state: &State,

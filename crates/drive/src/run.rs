@@ -22,8 +22,8 @@ use crate::contact::Contact;
 use crate::record::Record;
 use crate::{Model, Plan, RunError, State, Stepper};
 
-/// Advances `state` along `plan` to its end: after its duration, or earlier at steady steps if the plan allows it. Results before
-/// an error are in `state` and `record`.
+/// Advances `state` to the end of `plan`: after its duration, or earlier at a steady step length if the plan allows it. After an error,
+/// `state` and `record` contain the results before the error.
 ///
 /// # Errors
 ///
@@ -54,13 +54,13 @@ impl Model {
         }
     }
 
-    /// Whether a run with this stepper reports reversals of u of contact `index` as [`EventKind::Turn`](crate::EventKind::Turn).
-    /// This is the case with event location, a varying normal load and the memory curve. Otherwise they are its events `reversal`
-    /// and `gross slip ends`.
+    /// Whether a run with this stepper reports reversals of u of contact `index` as [`EventKind::Turn`](crate::EventKind::Turn). Such
+    /// reports require event location, a varying normal load and a memory curve. In other cases reversals of u are reported as the events
+    /// `reversal` and `gross slip ends`.
     pub fn tells_turns(&self, asked: Stepper, index: usize) -> bool {
         self.effective(asked).locates_events() && self.contacts.get(index).is_some_and(Contact::turns_unseen)
     }
 }
 
-/// Tolerance of a quasi-static path if the scenario names a stepper without one.
+/// Tolerance of a run along a prescribed (quasi-static) path if the requested stepper has no tolerance.
 pub const WALK_TOLERANCE: f64 = 1e-10;

@@ -38,7 +38,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Returns the SI unit of a waveform, by the first quantity that follows it. Empty if nothing follows it.
+    /// Returns the SI unit of the first quantity that follows a waveform. The unit is empty if no quantity follows the waveform.
     #[must_use]
     pub fn waveform_unit(&self, place: usize) -> &'static str {
         let follows = |value: Varying| matches!(value, Varying::Follows(waveform) if waveform == place);
@@ -70,7 +70,7 @@ impl Scene {
         ""
     }
 
-    /// Returns the waveform behind a signal: the signal itself, or the source of the first input of a block. None if there is none.
+    /// Returns the index of the waveform that determines a signal, by the first signal input of each block. None without such an input.
     #[must_use]
     pub fn waveform_of(&self, signal: usize) -> Option<usize> {
         let Some(block) = signal.checked_sub(self.waveforms.len()) else { return Some(signal) };
@@ -93,7 +93,7 @@ pub struct Named<T> {
     pub part: T,
 }
 
-/// Rigid body in the plane. Its coordinates are displacements from the reference position.
+/// Rigid body in the plane. The coordinates of a body are displacements from its reference position.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Body {
     /// Mass, kg; required if x or z is free.
@@ -124,7 +124,7 @@ pub enum Axis {
 pub struct Coordinate {
     /// Type of the coordinate.
     pub freedom: Freedom,
-    /// Position at t = 0, unless it follows a waveform.
+    /// Position at t = 0, unless the coordinate follows a waveform.
     pub position: f64,
     /// Velocity at t = 0, if free.
     pub velocity: f64,
@@ -155,12 +155,12 @@ pub enum Freedom {
     /// Does not move.
     #[default]
     Fixed,
-    /// Has inertia and obeys the equations of motion.
+    /// Coordinate with inertia, which obeys the equations of motion.
     Free,
-    /// Follows a signal by index: the waveforms in [`Scene::waveforms`] first, then the blocks in [`Scene::blocks`].
+    /// Coordinate that follows a signal by index: the waveforms of [`Scene::waveforms`] first, then the blocks of [`Scene::blocks`].
     Follows(usize),
-    /// Has no mass: loads, springs and contacts are in equilibrium at all times. Its position at t = 0 is the reference position;
-    /// the loads at t = 0 move it in zero time.
+    /// Quasi-static coordinate without mass: its loads, springs and contacts are in equilibrium at all times. Its position before t = 0 is
+    /// the reference position; the loads at t = 0 move the coordinate in zero time.
     Balanced,
 }
 
@@ -169,8 +169,8 @@ pub enum Freedom {
 pub enum Varying {
     /// Constant value, SI unit.
     Constant(f64),
-    /// Follows the waveform with this index in [`Scene::waveforms`]. A stroke may also follow a block; block indices continue
-    /// after the waveforms.
+    /// Value of the waveform with this index in [`Scene::waveforms`]. The stroke of an actuator may also follow a block; indices of blocks
+    /// continue after those of waveforms.
     Follows(usize),
 }
 
@@ -188,7 +188,7 @@ impl Side {
     ///
     /// # Errors
     ///
-    /// [`SceneFault::OneBody`] if they are equal.
+    /// [`SceneFault::OneBody`] if both sides are equal.
     pub fn two(first: Self, second: Self) -> Result<[Self; 2], SceneFault> {
         if first == second { Err(SceneFault::OneBody) } else { Ok([first, second]) }
     }
@@ -257,7 +257,7 @@ pub struct Gravity {
 impl Gravity {
     /// Returns g sin(incline) and g cos(incline), m/s², the accelerations opposite to x and z.
     ///
-    /// Multiples of π/2 are exact up to rounding: cos(π/2) = 6e-17 would press a contact on a vertical wall.
+    /// For multiples of π/2 the result is exact: a rounded cos(π/2) = 6e-17 would press a contact against a vertical wall.
     #[must_use]
     pub fn components(&self) -> (f64, f64) {
         let quarters = (self.incline / FRAC_PI_2).round();
@@ -276,7 +276,7 @@ impl Gravity {
 /// Initial state of the free coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Start {
-    /// As given by the bodies.
+    /// Positions and velocities given by the bodies.
     #[default]
     Given,
     /// Static equilibrium at t = 0, at rest.
@@ -300,24 +300,24 @@ impl Coordinate {
 }
 
 impl Body {
-    /// Whether any of its coordinates is free.
+    /// Whether any coordinate of the body is free.
     pub fn is_free(&self) -> bool {
         self.coordinates().iter().any(|(_, coordinate)| coordinate.freedom == Freedom::Free)
     }
 
-    /// Whether any of its coordinates is balanced.
+    /// Whether any coordinate of the body is balanced (quasi-static).
     pub fn is_balanced(&self) -> bool {
         self.coordinates().iter().any(|(_, coordinate)| coordinate.freedom == Freedom::Balanced)
     }
 
-    /// Returns its coordinates with their axes.
+    /// Returns the coordinates of the body with their axes.
     pub fn coordinates(&self) -> [(Axis, Coordinate); 3] {
         [(Axis::X, self.x), (Axis::Z, self.z), (Axis::Pitch, self.pitch)]
     }
 }
 
 impl Axis {
-    /// Returns the name in messages and columns.
+    /// Returns the name of the axis in messages and columns.
     pub fn key(self) -> &'static str {
         match self {
             Self::X => "x",

@@ -3,7 +3,7 @@
 /// Output times of a run, s.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Moments {
-    /// Multiples k × interval of this interval from k = 0 on, computed as products; above 0.
+    /// Multiples of this interval (s, above 0), including 0. Each is computed as a product, because a sum would accumulate rounding.
     Every(f64),
     /// Given times, ascending.
     At(Vec<f64>),
@@ -11,22 +11,22 @@ pub enum Moments {
 
 /// Iterator over the output times of a run, including its start and end.
 ///
-/// Times are computed one by one, so the memory does not depend on their number.
+/// Output times are computed one by one, so the use of memory does not depend on their number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schedule {
     moments: Moments,
     end: f64,
-    /// Distance from the end below which a time counts as the end, s.
+    /// Distance from the end of the run below which an output time counts as the end, s.
     near: f64,
     /// Index of the next time, an integer.
     next: f64,
     due: f64,
 }
 
-/// Distance from the start or the end of a run below which a multiple counts as it, in intervals.
+/// Distance from the start or end of a run below which an output time is set to that start or end, in intervals.
 const SAME: f64 = 1e-9;
 
-/// Largest index; larger numbers cannot be incremented.
+/// Limit of the index of an output time, 2⁵³: a larger `f64` cannot be incremented by 1.
 const COUNTED: f64 = 9_007_199_254_740_992.0;
 
 impl Moments {
@@ -40,7 +40,7 @@ impl Moments {
 }
 
 impl Schedule {
-    /// Returns the times between two times, s, both included.
+    /// Returns the output times from `from` to `end`, s, both included.
     pub fn new(moments: Moments, from: f64, end: f64) -> Self {
         let (next, near) = match &moments {
             Moments::Every(interval) => ((from / interval - SAME).ceil().max(0.0), SAME * interval),
@@ -52,7 +52,7 @@ impl Schedule {
         schedule
     }
 
-    /// Returns the times after one time, s, up to another, which is included. Used when a run is resumed.
+    /// Returns the output times after `from` up to and including `end`, s. Used when a run is resumed.
     pub(crate) fn after(moments: Moments, from: f64, end: f64) -> Self {
         let mut schedule = Self::new(moments, from, end);
         if let Moments::Every(interval) = schedule.moments {
@@ -69,31 +69,31 @@ impl Schedule {
         schedule
     }
 
-    /// Returns the time from which a time counts as the end, s.
+    /// Returns the time from which an output time counts as the end of the run, s.
     pub(crate) fn nearly(&self) -> f64 {
         self.end - self.near
     }
 
-    /// Returns the next time, s; infinite after the last one.
+    /// Returns the next output time, s; infinite after the last one.
     #[inline]
     pub fn due(&self) -> f64 {
         self.due
     }
 
-    /// Sets another end, s, not before the time reached.
+    /// Changes the end of the run, s. The new end is not before the time reached.
     pub(crate) fn end_at(&mut self, end: f64) {
         self.end = end;
         self.due = self.time();
     }
 
-    /// Advances to the next time.
+    /// Advances to the next output time.
     #[inline]
     pub fn advance(&mut self) {
         self.next += 1.0;
         self.due = self.time();
     }
 
-    /// Returns the next time, s; infinite after the end.
+    /// Computes the next output time, s; infinite after the end of the run.
     #[inline]
     fn time(&self) -> f64 {
         let t = match &self.moments {

@@ -1,9 +1,9 @@
-//! Poincaré section: a time in every period, and the coordinates of a state there.
+//! Poincaré section: a fixed time in every drive period, and the coordinates of a state at that time.
 //!
-//! The period map leads from a state at a [`Section`] to the state one period later. Its coordinates are positions, velocities,
-//! states of blocks, and the memories of contacts that are not in gross slip. Memory coordinates are heights of knots, and slopes
-//! of pieces from full stick. Positions are relative to the drift: the distance travelled is not a coordinate. Memories of blocks
-//! and of rows of springs are carried along unchanged.
+//! The Poincaré map leads from a state at a [`Section`] to the state one period later. Coordinates of a section are positions, velocities,
+//! states of blocks, and slip memories of contacts that are not in gross slip. Coordinates of a slip memory are the heights of its
+//! breakpoints, and the slopes of pieces formed in full stick. Positions are relative to the drift: the distance travelled is not a
+//! coordinate. Memories of blocks and of spring rows are carried over without being coordinates.
 
 mod adoption;
 mod drift;
@@ -17,7 +17,7 @@ use crate::{Model, State};
 use drift::Drift;
 use stickslip_contact::Memory;
 
-/// Largest number of memory coordinates; with more, memories are carried along.
+/// Largest number of coordinates from slip memories. If more are needed, none is used, and the memories are carried over.
 const MOST_OF_MEMORIES: usize = 24;
 
 impl Model {
@@ -29,7 +29,7 @@ impl Model {
 }
 
 impl State {
-    /// Whether the memory of a contact has no effect: it is open, in gross slip or frictionless.
+    /// Whether the slip memory of a contact has no effect, because the contact is open, in gross slip or frictionless.
     #[must_use]
     pub fn has_given_way(&self, model: &Model, index: usize) -> bool {
         let contact = model.contacts.get(index).zip(self.modes.get(index));
@@ -46,9 +46,9 @@ pub enum Unknown {
     Speed(usize),
     /// State of a block by its index among the states of all blocks, in its unit.
     Own(usize),
-    /// Height of a knot of a contact's memory (contact, index from the centre), m.
+    /// Height of a breakpoint of a slip memory, m; by index of the contact and of the breakpoint from the centre.
     Height(usize, usize),
-    /// Slope of a piece of a contact's memory from full stick (contact, index from the centre).
+    /// Slope of a memory piece formed in full stick; by index of the contact and of the piece from the centre.
     Slope(usize, usize),
 }
 
@@ -64,7 +64,7 @@ pub struct Section<'m> {
 }
 
 impl<'m> Section<'m> {
-    /// Returns the section at the time of a state whose memories are up to date ([`Run::stop`](crate::Run::stop)).
+    /// Returns the section at the time of a state whose slip memories are up to date ([`Run::stop`](crate::Run::stop)).
     #[must_use]
     pub fn new(model: &'m Model, mut base: State) -> Self {
         base.come_back(model);
@@ -125,7 +125,7 @@ impl<'m> Section<'m> {
         &self.unknowns
     }
 
-    /// Returns the indices of contacts whose memories are carried along and are not coordinates.
+    /// Returns the indices of contacts whose slip memories are carried over and are not coordinates of the section.
     #[must_use]
     pub fn carried(&self) -> &[usize] {
         &self.carried
@@ -151,13 +151,13 @@ impl<'m> Section<'m> {
         self.model.free.iter().map(|free| free.scale.0).collect()
     }
 
-    /// Returns the number of drift directions, along which only the position changes.
+    /// Returns the number of drift directions. Motion along a drift direction changes positions only.
     #[must_use]
     pub fn drifts(&self) -> usize {
         self.drifts.len()
     }
 
-    /// Returns the name of a body that may drift along z or in pitch, and the axis. None if only x may drift.
+    /// Returns the name of a body that may drift along z or in pitch, and the axis. None if bodies drift along x only.
     #[must_use]
     pub fn drifts_away(&self) -> Option<(String, &'static str)> {
         let free = self.model.free.iter().enumerate().filter(|(_, free)| free.axis != Axis::X);
@@ -168,8 +168,8 @@ impl<'m> Section<'m> {
         })
     }
 
-    /// Returns the component of a displacement of all free coordinates for a body and an axis, m or rad. None if that coordinate
-    /// is not free.
+    /// Returns the displacement of body `index` along `axis`, m or rad, from the displacements `way` of all free coordinates. None if this
+    /// coordinate of the body is not free.
     #[must_use]
     pub fn of_body(&self, way: &[f64], index: usize, axis: Axis) -> Option<f64> {
         match self.model.bodies.get(index)?.bindings[axis as usize] {
@@ -178,9 +178,8 @@ impl<'m> Section<'m> {
         }
     }
 
-    /// Returns the slip of contact `c` along x for a displacement of all free coordinates, m, under a constant normal load. It
-    /// vanishes in the long run if the contact never slips grossly. Under a varying normal load, where partial slip may cause a
-    /// drift, the function returns 0.
+    /// Returns the slip of contact `c` along x for the displacements `way` of all free coordinates, m. Under a constant normal load, net
+    /// slip over many periods requires gross slip. Under a varying normal load, partial slip may cause a drift, and the function returns 0.
     #[must_use]
     pub fn slides(&self, way: &[f64], c: usize) -> f64 {
         let is_even = |contact: &&crate::contact::Contact| {
@@ -190,7 +189,7 @@ impl<'m> Section<'m> {
         contact.map_or(0.0, |contact| contact.u.free.iter().map(|(i, a)| a * way[*i]).sum())
     }
 
-    /// Returns the name of a coordinate: that of its body, block or contact.
+    /// Returns the name of a coordinate, formed from the name of its body, block or contact.
     #[must_use]
     pub fn name(&self, unknown: Unknown) -> String {
         let free = |i: usize| {
@@ -215,8 +214,8 @@ impl<'m> Section<'m> {
         }
     }
 
-    /// Returns a state one period later, moved back to the section, and the drift of each free coordinate, m or rad. The memories
-    /// move with the drift.
+    /// Moves a state one period later back to the section. Returns the moved state and the drift of each free coordinate, m or rad. The
+    /// slip memories are shifted by the drift.
     #[must_use]
     pub fn back(&self, mut end: State) -> (State, Vec<f64>) {
         end.come_back(self.model);
@@ -238,7 +237,7 @@ impl<'m> Section<'m> {
         (end, way)
     }
 
-    /// Returns a state at the section as the start of a run: energy balance and counts begin there.
+    /// Returns a copy of a state at the section as the start of a run. Energy balance and counts start anew.
     #[must_use]
     pub fn begun(&self, state: &State) -> State {
         let (model, mut begun) = (self.model, state.clone());
@@ -255,7 +254,7 @@ impl<'m> Section<'m> {
         begun
     }
 
-    /// Whether a state has memory coordinates that the section does not contain.
+    /// Whether a slip memory of a state has breakpoints that are not coordinates of the section.
     fn holds_more(&self, state: &State) -> bool {
         let is_of = |c: usize, unknown: &Unknown| matches!(unknown, Unknown::Height(own, _) | Unknown::Slope(own, _) if *own == c);
         let has_none =
@@ -269,8 +268,8 @@ impl<'m> Section<'m> {
         })
     }
 
-    /// Returns the difference of two states in the coordinates of the section, in their units. None if their memories have
-    /// different knots.
+    /// Returns the difference of the states `of` and `less` in the coordinates of the section, in their units. None if their slip memories
+    /// have different breakpoints.
     #[must_use]
     pub fn difference(&self, of: &State, less: &State) -> Option<Vec<f64>> {
         if self.holds_more(of) || self.holds_more(less) {
@@ -289,7 +288,7 @@ impl<'m> Section<'m> {
         self.unknowns.iter().map(number).collect()
     }
 
-    /// Returns a state with its coordinates changed by given amounts, in their units. None if a memory cannot have this form.
+    /// Returns a state with section coordinates changed by the amounts `by`, in their units. None if no slip memory has these coordinates.
     #[must_use]
     pub fn moved(&self, state: &State, by: &[f64]) -> Option<State> {
         let (model, layout) = (self.model, self.model.layout());

@@ -1,6 +1,6 @@
 //! Sine of an angle in the first quadrant, as an inlined and constant function.
 
-/// Coefficients (-1)ᵏ/(2k+1)! of the series.
+/// Coefficients (-1)ᵏ/(2k+1)! of the sine series.
 const TERMS: [f64; 10] = {
     let (mut terms, mut term, mut k) = ([0.0; 10], 1.0, 0);
     while k < 10 {

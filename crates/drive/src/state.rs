@@ -25,18 +25,18 @@ use crate::scene::Axis;
 use crate::{Model, Piece, RunError, record};
 use stickslip_contact::{Apex, ContactError, Memory, Move};
 
-/// State of a drive, which can be cloned, compared and saved. A run from a copy has identical bits.
+/// State of a drive, which can be cloned, compared and saved. A run from a copied state gives identical bits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Time, s.
     pub(crate) t: f64,
-    /// Components in the order of [`Layout`]; positions relative to their shifted origins.
+    /// Components of the state vector in the order of [`Layout`]; positions are relative to their shifted origins.
     pub(crate) y: Vec<f64>,
-    /// Shift of the origin of each free coordinate, m, which keeps digits over long travel.
+    /// Shift of the origin of each free coordinate, m. Shifts keep positions accurate over long travel.
     pub(crate) shifts: Vec<f64>,
-    /// Memory of each contact; displacements count from the shifted origins.
+    /// Slip memory of each contact, with displacements relative to the shifted origins.
     pub(crate) memories: Vec<Memory>,
-    /// Law of each contact since its last event.
+    /// Force law of each contact since its last event.
     pub(crate) modes: Vec<Mode>,
     /// Whether the last path of each contact was growth in full stick that may continue.
     pub(crate) grew: Vec<bool>,
@@ -46,7 +46,7 @@ pub struct State {
     pub(crate) pieces: Vec<Piece>,
     /// Friction work of each contact from committed paths, J.
     pub(crate) friction: Vec<f64>,
-    /// Input work that is not an integral over time, J: jumps, and the initial values of work that follows from the state.
+    /// Input work that is not integrated over time, J: jumps, and initial values of work that is a function of the state.
     pub(crate) jumps: f64,
     /// Dissipated work of blocks from committed paths, J.
     pub(crate) lost: f64,
@@ -54,17 +54,17 @@ pub struct State {
     pub(crate) origin: f64,
     /// Length of the next step, s; 0 before the first one.
     pub(crate) step: f64,
-    /// Step length when gross slip last began, s; it is used again afterwards.
+    /// Step length before gross slip last began, s; it is used again when gross slip ends.
     pub(crate) stuck_step: f64,
     /// Working data of a run; none before the first run.
     pub(crate) underway: Option<Underway>,
-    /// Next piece of each input, if supplied; empty without inputs.
+    /// Next supplied piece of each input waveform; empty if the model has no inputs.
     pub(crate) supplied: Vec<Option<Piece>>,
-    /// State of each generator; empty without generators.
+    /// State of each generator; empty if the model has no generators.
     pub(crate) generators: Vec<Option<Generating>>,
     /// Counts of steps and events.
     pub(crate) counts: Counts,
-    /// Counts of steps and intervals by method.
+    /// Numbers of steps and intervals by integration method.
     pub(crate) tally: Tally,
 }
 
@@ -79,14 +79,14 @@ pub struct Counts {
     pub evaluations: u64,
     /// Number of events.
     pub events: u64,
-    /// Number of intervals of step doubling, where events accumulate.
+    /// Number of intervals where events accumulate and step doubling replaces event location.
     pub detours: u64,
-    /// Number of steps of such intervals that were accepted above the tolerance. With contact damping the force may jump, and
-    /// shorter steps do not converge.
+    /// Number of steps in step doubling that were accepted above the tolerance. With contact damping the force may jump, and shorter steps
+    /// do not converge.
     pub missed: u64,
 }
 
-/// Magnitude from which a component counts as not finite: energies contain products of components.
+/// Magnitude from which a component counts as not finite, because energies contain products of components.
 const REACH: f64 = 1e120;
 
 /// Returns the index of the first component that is not finite.
@@ -115,14 +115,14 @@ impl Model {
         RunError::Contact { t, contact: self.contacts[c].name.clone(), source }
     }
 
-    /// Returns the state at t = 0, before the static equilibrium and the choice of laws.
+    /// Returns the state at t = 0, before static equilibrium is solved and force laws are chosen.
     pub(crate) fn rest(&self) -> State {
         let mut state = State::blank();
         self.put_at_rest(&mut state);
         state
     }
 
-    /// Computes that state in existing storage.
+    /// Computes the state of [`Self::rest`] in existing storage.
     pub(crate) fn put_at_rest(&self, state: &mut State) {
         let layout = self.layout();
         state.t = 0.0;
@@ -157,7 +157,7 @@ impl Model {
         state.tally.clear(contacts);
     }
 
-    /// Sets the initial memories of contacts: untouched, or loaded monotonically to the initial displacement.
+    /// Sets the initial slip memories of contacts: untouched, or loaded monotonically to the initial displacement.
     fn touch(&self, memories: &mut Vec<Memory>) {
         memories.truncate(self.contacts.len());
         for (c, contact) in self.contacts.iter().enumerate() {
@@ -216,12 +216,12 @@ impl State {
         self.blocks.get(block).map(|block| block.memory.as_slice())
     }
 
-    /// Returns the shift of the origin of u of a contact, m.
+    /// Returns the shift of the origin of a contact's displacement u, m.
     pub(crate) fn shift(&self, contact: &Contact) -> f64 {
         contact.u.free.iter().map(|(i, a)| a * self.shifts[*i]).sum()
     }
 
-    /// Returns the memories with displacements from the initial positions.
+    /// Returns the slip memories with displacements relative to the initial positions.
     pub(crate) fn shifted_back(&self, model: &Model) -> Vec<Memory> {
         let mut memories = self.memories.clone();
         for (memory, contact) in memories.iter_mut().zip(&model.contacts) {
@@ -230,13 +230,13 @@ impl State {
         memories
     }
 
-    /// Moves the origin of u of a contact back by `by` (m), in its memory and its law.
+    /// Shifts the displacements in the slip memory and the force law of contact `c` by `by` (m).
     pub(crate) fn shift_law(&mut self, c: usize, by: f64) {
         self.memories[c].shift(by);
         self.modes[c].shift(by);
     }
 
-    /// Recomputes the law of a contact from a replaced memory, with the same sense of slip. Its u has increased by `by` (m).
+    /// Recomputes the force law of contact `c`, with the same sense of slip, after its memory was replaced and u increased by `by` (m).
     pub(crate) fn renew_law(&mut self, model: &Model, c: usize, by: f64) {
         let (contact, memory) = (&model.contacts[c], &self.memories[c]);
         match (&mut self.modes[c], memory.branching()) {
@@ -253,7 +253,7 @@ impl State {
         }
     }
 
-    /// Resets all origins to the initial positions.
+    /// Resets the origins of all displacements to the initial positions.
     pub(crate) fn come_back(&mut self, model: &Model) {
         if self.shifts.iter().all(|shift| *shift == 0.0) {
             return;
@@ -264,8 +264,8 @@ impl State {
         self.y.iter_mut().zip(&mut self.shifts).for_each(|(x, shift)| *x += std::mem::take(shift));
     }
 
-    /// Converts a state from the run of another stepper with other components. Forces of growing contacts are dropped, because
-    /// the memories are committed and laws are chosen anew.
+    /// Converts a state from a run of another stepper with other components. Forces of contacts growing in full stick are dropped, because
+    /// slip memories are committed and laws are chosen anew.
     pub(crate) fn carry_over(&mut self, model: &Model, to: Layout) {
         // With the same components the state keeps all its bits.
         if self.y.len() == to.total() {
@@ -301,7 +301,7 @@ impl State {
         self.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns memory and law of a contact.
+    /// Returns the slip memory and the force law of contact `c`.
     pub(crate) fn law(&self, c: usize) -> (&Memory, &Mode) {
         (&self.memories[c], &self.modes[c])
     }
@@ -317,12 +317,12 @@ impl State {
         record::fill(&equations, self, self.t, &|i| self.y[i], row);
     }
 
-    /// Returns the counts of methods.
+    /// Returns the numbers of steps and intervals by integration method.
     pub fn tally(&self) -> &Tally {
         &self.tally
     }
 
-    /// Returns the memories of the contacts in order. Their displacements count from shifted origins and may differ from u in the rows.
+    /// Returns the slip memories of all contacts. Displacements in them are relative to shifted origins and may differ from u in rows.
     pub fn memories(&self) -> &[Memory] {
         &self.memories
     }

@@ -1,4 +1,4 @@
-//! Optional wall-clock time, so that a run needs no clock.
+//! Optional wall clock, so that a run also works on platforms without a clock.
 
 use std::time::Instant;
 
@@ -7,7 +7,7 @@ use std::time::Instant;
 pub struct Wall(Option<Instant>);
 
 impl Wall {
-    /// Starts a clock if wanted and available on the platform.
+    /// Starts a clock if requested and available on the platform.
     #[must_use]
     pub fn begin(is_wanted: bool) -> Self {
         let has_clock = !cfg!(all(target_family = "wasm", target_os = "unknown"));

@@ -4,7 +4,7 @@ use crate::{Event, Record};
 
 /// Observer that receives the progress of a run and may stop it, such as a progress bar or a signal handler.
 ///
-/// It is called at every row, and at intervals of many steps, in the thread of the run. Calls should take nanoseconds.
+/// The observer is called at every row, and at intervals of many steps, in the thread of the run. Calls should take nanoseconds.
 pub trait Watcher {
     /// Receives the time reached, s.
     fn reached(&self, t: f64);
@@ -24,7 +24,7 @@ impl Watcher for () {
     }
 }
 
-/// Record without output through which an observer can stop a run.
+/// Record without output, through which an observer can stop a run.
 pub struct Unrecorded<'a>(pub &'a dyn Watcher);
 
 impl Record for Unrecorded<'_> {

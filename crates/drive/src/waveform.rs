@@ -1,10 +1,10 @@
 //! Prescribed functions of time (motions, forces, strokes) with exact corners.
 //!
-//! A waveform is a chain of smooth pieces on half-open intervals [start, end). A stepper samples its present [`Piece`] up to its end,
-//! where it gives the limit from the left, and continues with the piece [`Waveform::after`] it. Jumps occur between two pieces.
+//! A waveform is a chain of smooth pieces on half-open intervals [start, end). A stepper samples the present [`Piece`] up to its end,
+//! including the left-hand limit there, and continues with the piece [`Waveform::after`] it. Jumps occur between two pieces.
 //!
-//! The pieces of an input are supplied during the run; without a caller it has one piece, its initial value. A generator has a
-//! chain for its initial command; after another command its pieces follow from the state of the run.
+//! Pieces of an input are supplied during the run; without them, the input has one piece with its initial value. A generator has pieces for
+//! its initial command. After another command, the state of the run determines its pieces.
 
 mod corners;
 mod course;
@@ -68,7 +68,7 @@ impl Waveform {
         Ok(waveform)
     }
 
-    /// Copies another waveform, reusing the memory; does nothing if both are equal.
+    /// Copies another waveform, reusing allocated memory; does nothing if both are equal.
     pub(crate) fn copy(&mut self, from: &Self) {
         if self == from {
             return;
@@ -109,8 +109,8 @@ impl Waveform {
         }
     }
 
-    /// Returns the next piece; the last piece has no end and is followed by itself. An input holds the value at the end of a
-    /// supplied piece.
+    /// Returns the piece that follows `piece`. The last piece has no end and follows itself. An input holds the final value of a supplied
+    /// piece.
     #[must_use]
     pub fn after(&self, piece: &Piece) -> Piece {
         let mut next = *piece;
@@ -124,13 +124,13 @@ impl Waveform {
         next
     }
 
-    /// Returns the piece at `t` (s) and all following ones; the last one has no end.
+    /// Returns the piece at `t` (s) and all following pieces; the last piece has no end.
     pub fn pieces_from(&self, t: f64) -> impl Iterator<Item = Piece> {
         let next = |piece: &Piece| (piece.end < f64::INFINITY).then(|| self.after(piece));
         std::iter::successors(Some(self.piece_at(t)), next)
     }
 
-    /// Returns value, rate and acceleration at `t` (s) on `piece`; at its end the limit from the left.
+    /// Returns value, rate and acceleration at `t` (s) on `piece`. The end of the piece gives the limit from the left.
     #[must_use]
     #[inline]
     pub fn sample(&self, piece: &Piece, t: f64) -> Sample {
@@ -140,7 +140,7 @@ impl Waveform {
         }
     }
 
-    /// Samples pieces that are not linear; not inlined.
+    /// Samples a piece that is not linear. Never inlined, to keep [`Self::sample`] short.
     #[inline(never)]
     fn curved(&self, piece: &Piece, t: f64) -> Sample {
         match &piece.law {
@@ -157,7 +157,7 @@ impl Waveform {
         self.sample(&self.piece_at(0.0), 0.0)
     }
 
-    /// Returns the jump of the value at the end of `piece`; exactly 0 if continuous.
+    /// Returns the jump of the value at the end of `piece`; exactly 0 if the waveform is continuous there.
     #[must_use]
     pub fn jump_after(&self, piece: &Piece) -> f64 {
         if piece.end == f64::INFINITY {
@@ -166,7 +166,7 @@ impl Waveform {
         self.jump_between(piece, &self.after(piece))
     }
 
-    /// Whether all its pieces are linear.
+    /// Whether all pieces of the waveform are linear.
     #[must_use]
     pub fn is_straight(&self) -> bool {
         match &self.course.chain {
@@ -176,7 +176,7 @@ impl Waveform {
         }
     }
 
-    /// Returns the interpolation of an input. None for other waveforms.
+    /// Returns the interpolation of an input. None if the waveform is not an input.
     #[must_use]
     pub fn interpolation(&self) -> Option<Interpolation> {
         match self.course.chain {
@@ -185,7 +185,7 @@ impl Waveform {
         }
     }
 
-    /// Returns the generator. None for other waveforms.
+    /// Returns the generator of the waveform. None if the waveform is not a generator.
     #[must_use]
     pub fn generator(&self) -> Option<&Generator> {
         match &self.shape {
@@ -200,21 +200,21 @@ impl Waveform {
         self.course.has_jumps
     }
 
-    /// Returns the smallest and the largest value over all time. For a sum of sines they are upper and lower bounds, usually
-    /// within a few millionths; for an input they are the allowed range.
+    /// Returns the smallest and the largest value over all time. For a sum of sines these are bounds, usually within a few millionths; for
+    /// an input they are the allowed range.
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         self.course.range
     }
 
-    /// Returns the period, s. None for single events, an input, or a generator at rest.
+    /// Returns the period, s. None for waveforms that do not repeat, for inputs, and for generators at rest.
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.course.period
     }
 
-    /// Returns the characteristic duration, s: the period, or the time from start to stop; infinite if it never moves. For a
-    /// generator it is the shortest period.
+    /// Returns the characteristic duration, s: the period, or the time from start to stop. For a generator it is the shortest period.
+    /// Infinite if the waveform never moves.
     #[must_use]
     pub fn extent(&self) -> f64 {
         let (start, stop) = self.window;
@@ -222,14 +222,14 @@ impl Waveform {
         self.shortest_period().unwrap_or(if whole > 0.0 { whole } else { f64::INFINITY })
     }
 
-    /// Returns the shortest possible period, s; for a generator that of the largest allowed frequency.
+    /// Returns the shortest possible period, s. For a generator it is the period at the largest allowed frequency.
     #[must_use]
     pub(crate) fn shortest_period(&self) -> Option<f64> {
         let commanded = self.generator().map(|generator| generator.frequencies.1.recip());
         commanded.filter(|period| period.is_finite()).or(self.period())
     }
 
-    /// Returns the period of its fastest sine, s. None without sines.
+    /// Returns the period of the fastest sine in the waveform, s. None without sines.
     #[must_use]
     pub(crate) fn fastest_sine(&self) -> Option<f64> {
         let order = match &self.shape {
@@ -240,32 +240,32 @@ impl Waveform {
         Some(self.timing.period / order)
     }
 
-    /// Returns start and stop, s; the stop may be infinite.
+    /// Returns start and stop of the waveform, s; the stop may be infinite.
     #[must_use]
     pub fn window(&self) -> (f64, f64) {
         self.window
     }
 
-    /// Returns a quarter of the shortest wave within a smooth piece, s, the largest step that cannot miss it. Infinite if all
-    /// pieces are linear or cubic.
+    /// Returns a quarter of the shortest wave within a smooth piece, s: the largest step that cannot miss the wave. Infinite if all pieces
+    /// are linear or cubic.
     #[must_use]
     pub fn resolution(&self) -> f64 {
         0.25 * self.course.wave
     }
 
-    /// Returns its shape, as given.
+    /// Returns the shape with which the waveform was created.
     #[must_use]
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
-    /// Returns its timing, as given; for a pattern that of one cycle of its shape. With [`Self::shape`] it makes the same waveform.
+    /// Returns the timing with which the waveform was created; for a pattern it is the timing of one cycle of the repeated shape.
     #[must_use]
     pub fn given(&self) -> &Timing {
         &self.given
     }
 
-    /// Returns its timing; for a pattern that of the whole pattern.
+    /// Returns the timing of the waveform; for a pattern it is the timing of the whole pattern.
     #[must_use]
     pub fn timing(&self) -> &Timing {
         &self.timing
@@ -291,7 +291,7 @@ impl Waveform {
         }
     }
 
-    /// Returns the piece of a waveform without corners.
+    /// Returns the sinusoidal piece of a waveform without corners.
     fn sines(&self) -> Piece {
         Piece { start: self.window.0, end: self.window.1, index: 1, law: Law::Sines }
     }
@@ -302,20 +302,20 @@ impl Waveform {
         Piece { start: f64::NEG_INFINITY, end: start, ..Piece::held(start, self.held.0) }
     }
 
-    /// Returns the constant piece after the stop, or that of an input from the start.
+    /// Returns the constant piece after the stop, or the initial piece of an input.
     fn last(&self) -> Piece {
         let stop = self.window.1;
         let index = match &self.course.chain {
             Chain::Corners(corners) => corners.after(),
             Chain::Sines(_) => 2,
             Chain::Step(_) => 1,
-            // No piece precedes it.
+            // An input has no piece before this one.
             Chain::Supplied(_) => 0,
         };
         Piece { index, ..Piece::held(stop, self.held.1) }
     }
 
-    /// Returns the values at the start and at the end of the chain.
+    /// Returns the values before the start and after the stop of the waveform.
     fn ends(&self) -> (f64, f64) {
         let (start, stop) = self.window;
         let first = self.corners().map_or_else(|| self.sines(), |corners| corners.piece(1));

@@ -8,13 +8,13 @@ use stickslip_run::{Real, quantity};
 use stickslip_study::steady::Multiplier;
 use stickslip_study::steady::continuation::{Branch, Continuation, Mark, Point};
 
-/// Names of the plot: complete, and interrupted.
+/// Names of the plot of a complete and of an interrupted branch.
 const NAMES: [&str; 2] = ["branch", "branch-partial"];
 /// Number of multipliers that are drawn.
 const MOST: usize = 4;
 
-/// Returns all possible file names of the plot; existing ones are deleted when it is written. A complete branch also
-/// replaces an interrupted one.
+/// Returns all possible file names of the plot; existing files are deleted when the plot is written. A complete branch also replaces an
+/// interrupted one.
 pub fn all_files(is_cut: bool) -> Vec<String> {
     Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
@@ -45,8 +45,8 @@ pub fn draw(of: &Continuation, branch: &Branch, look: &Look) -> Result<Vec<Pictu
     pen.draw_as(plot, branch_figure(&title, &course)).map_err(|source| FigureError::Plot { plot, source })
 }
 
-/// Sections of equal stability along the branch. Where the stability changes, one section ends and the next begins at
-/// the bifurcation point, or else at the last orbit before it.
+/// Returns the sections of equal stability along the branch. Where the stability changes, one section ends and the next begins at the
+/// bifurcation point, or else at the last orbit before it.
 fn stretches(branch: &Branch) -> Vec<Stretch> {
     let mut stretches: Vec<Stretch> = Vec::new();
     let mut before: Option<&Point> = None;
@@ -90,8 +90,8 @@ impl Place {
         }
     }
 
-    /// Point between two orbits of different stability: the nearest bifurcation with a change of stability, with |λ|
-    /// interpolated. Without one nearby, the first orbit.
+    /// Returns the point between two orbits of different stability: the nearest bifurcation with a change of stability, with |λ|
+    /// interpolated. Without a bifurcation nearby, returns the first orbit.
     fn between([before, after]: [&Point; 2], marks: &[Mark]) -> Self {
         let [low, high] = [before.value.min(after.value), before.value.max(after.value)];
         let apart = |mark: &&Mark| (low - mark.value).max(mark.value - high).max(0.0);
@@ -116,7 +116,7 @@ impl Place {
     }
 }
 
-/// Special points grouped by kind. The name of a kind contains the parameter value if there is only one point.
+/// Returns the special points grouped by kind. The name of a kind contains the parameter value if there is only one point.
 fn marks(of: &Continuation, branch: &Branch) -> Vec<(String, Vec<[f64; 2]>)> {
     let mut marks: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
     for mark in &branch.marks {

@@ -76,7 +76,7 @@ pub fn draw(
     Ok((bytes, curves.iter().map(|curve| curve.channel.name.clone()).collect()))
 }
 
-/// Numeric channels with the largest difference relative to the tolerance. If no channel exceeds its tolerance, all are candidates.
+/// Returns the numeric channels that differ most relative to their tolerance; if no channel exceeds its tolerance, from all channels.
 fn curves<'a>(
     (a, b): (&'a Results, &'a Results),
     comparison: &'a Comparison,
@@ -100,13 +100,13 @@ fn curves<'a>(
     channels.into_iter().filter_map(curve).take(SHOWN).collect()
 }
 
-/// Name of a run in the legend: the last two components of its path.
+/// Returns the name of a run in the legend: the last two components of its path.
 fn legend(results: &Results) -> String {
     let parts: Vec<_> = results.folder.iter().map(|part| part.to_string_lossy()).collect();
     parts[parts.len().saturating_sub(2)..].join("/")
 }
 
-/// Metadata of the picture.
+/// Returns the metadata of the picture.
 fn provenance(comparison: &Comparison) -> Vec<(String, String)> {
     let (a, b) = (&comparison.a, &comparison.b);
     let entries = [

@@ -1,4 +1,4 @@
-//! Plot of a performance curve; [`holding`] is that of holding forces, [`optimum`] that of an optimum.
+//! Plot of a performance curve; [`holding`] plots holding forces, [`optimum`] the sections through an optimum.
 
 pub mod holding;
 pub mod optimum;
@@ -10,11 +10,11 @@ use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_run::{Job, Real, Warning, quantity};
 use stickslip_study::curve::{Curve, Motion, Point, Sense, Traced, Way};
 
-/// Names of the plot: complete, and interrupted.
+/// Names of the plot of a complete and of an interrupted curve.
 const NAMES: [&str; 2] = ["curve", "curve-partial"];
 
-/// Returns all possible file names of the plot; existing ones are deleted when it is written. A complete curve also
-/// replaces an interrupted one.
+/// Returns all possible file names of the plot; existing files are deleted when the plot is written. A complete curve also replaces an
+/// interrupted one.
 pub fn all_files(is_cut: bool) -> Vec<String> {
     Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
@@ -82,7 +82,7 @@ fn pictured(
     pen.draw_as(plot, machine_figure(title, machine)).map_err(|source| FigureError::Plot { plot, source })
 }
 
-/// Results of the curve, one panel each.
+/// Returns the results of the curve, one panel each.
 fn courses(ways: &[Way<'_>]) -> Vec<MachineCourse<'static>> {
     let Some((curve, _)) = ways.first() else { return Vec::new() };
     let course = |name, unit, line: fn(Way<'_>) -> MachineLine<'static>| {
@@ -112,7 +112,7 @@ fn courses(ways: &[Way<'_>]) -> Vec<MachineCourse<'static>> {
 /// Function that computes a result from a motion and the value of the parameter.
 type Told<'a> = &'a dyn Fn(&Motion, f64) -> f64;
 
-/// Result and its variation at all points.
+/// Returns the result and its variation at all points.
 fn line((curve, traced): Way<'_>, figure: Told<'_>, spread: Told<'_>) -> MachineLine<'static> {
     let of = |figure: Told<'_>| -> Vec<f64> {
         let known = traced.points.iter().map(|point| {
@@ -124,7 +124,7 @@ fn line((curve, traced): Way<'_>, figure: Told<'_>, spread: Told<'_>) -> Machine
     MachineLine { name: curve.sense.map_or("", Sense::name), values: of(figure), spreads: of(spread) }
 }
 
-/// Special points that were found: name with value and parameter, and the parameter.
+/// Returns the special points that were found: name with value and parameter, and the parameter.
 fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
     let found = traced.landmarks.iter().filter_map(|landmark| {
         let at = *landmark.at.as_ref().ok()?;
@@ -142,7 +142,7 @@ fn landmarks(curve: &Curve, traced: &Traced) -> Vec<(String, f64)> {
     found.collect()
 }
 
-/// Values without a motion and values with warnings, grouped by reason; for both directions together.
+/// Returns the values without a motion and values with warnings, grouped by reason; for both directions together.
 fn faults(ways: &[Way<'_>]) -> Vec<(String, Vec<f64>)> {
     let points = || ways.iter().flat_map(|(_, traced)| &traced.points);
     let kind = |point: &Point| Some((point.value, point.motion.as_ref().err()?.kind().to_owned()));
@@ -150,7 +150,7 @@ fn faults(ways: &[Way<'_>]) -> Vec<(String, Vec<f64>)> {
     lanes(points().filter_map(kind).chain(warnings(warned)))
 }
 
-/// Values with warnings, and the text of their lane.
+/// Returns the values with warnings, and the text of their lane.
 fn warnings<'a>(points: impl Iterator<Item = (f64, &'a [Warning])>) -> impl Iterator<Item = (f64, String)> {
     points.flat_map(|(at, warnings)| {
         warnings.iter().map(move |warning| (at, format!("warning: {}", warning.kind)))

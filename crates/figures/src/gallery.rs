@@ -55,7 +55,7 @@ pub enum GalleryError {
     },
 }
 
-/// Runs a scenario and draws its plots in all looks of the gallery. Its tables are temporary.
+/// Runs a scenario and draws its plots in all formats and colours of the gallery. Its tables are temporary.
 ///
 /// # Errors
 /// If the run ends early, if a plot cannot be drawn, or if tables cannot be written.

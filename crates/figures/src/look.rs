@@ -50,7 +50,7 @@ pub type Picture = (String, Vec<u8>);
 pub(crate) struct Pen<'a> {
     pub(crate) look: &'a Look,
     pub(crate) provenance: Vec<(String, String)>,
-    /// Collects figures with their names instead of drawing them, if present.
+    /// If present, figures are collected here with their names instead of being drawn.
     pub(crate) kept: Option<Mutex<Vec<(String, Figure<'static>)>>>,
 }
 
@@ -84,14 +84,14 @@ impl Look {
         self.width.map(|tenths| f64::from(tenths) / 10.0)
     }
 
-    /// Returns the file names of all plots of a scenario in all looks without a print width.
+    /// Returns the file names of all plots of a scenario in all formats, colours and scales, without a print width.
     pub fn all_files() -> Vec<String> {
         let own: Vec<String> = (1..=PlotName::MOST_OWN).map(own_name).collect();
         let names = PlotName::ALL.map(PlotName::name).into_iter().chain(own.iter().map(String::as_str));
         Self::all_files_of(&names.collect::<Vec<_>>())
     }
 
-    /// Returns the file names of given plots in all looks without a print width.
+    /// Returns the file names of given plots in all formats, colours and scales, without a print width.
     pub fn all_files_of(plots: &[&str]) -> Vec<String> {
         let mut names = Vec::new();
         for theme in [Colours::Light, Colours::Dark] {
@@ -106,7 +106,7 @@ impl Look {
     }
 }
 
-/// Name of the plot of user-selected channels with this number, counted from 1.
+/// Returns the name of the plot of user-selected channels with this number, counted from 1.
 pub(crate) fn own_name(number: usize) -> String {
     format!("{}-{number}", PlotName::Xy.name())
 }
@@ -139,7 +139,7 @@ impl Pen<'_> {
         self.look.themes.iter().map(film).collect()
     }
 
-    /// Figures that were collected.
+    /// Returns the figures that were collected.
     pub(crate) fn into_kept(self) -> Vec<(String, Figure<'static>)> {
         self.kept.map_or(Vec::new(), |kept| kept.into_inner().unwrap_or_else(PoisonError::into_inner))
     }

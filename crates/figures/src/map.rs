@@ -59,13 +59,13 @@ pub fn draw(
     pen.draw_as(NAME, map_figure(&title, shown)).map_err(|source| FigureError::Plot { plot: NAME, source })
 }
 
-/// Positions of the cells as fractions of the axes, column by column.
+/// Returns the positions of the cells as fractions of the axes, column by column.
 fn cells() -> impl Iterator<Item = [f64; 2]> {
     let share = |k: usize, axis: usize| k as f64 / (CELLS[axis] - 1) as f64;
     (0..CELLS[0]).flat_map(move |i| (0..CELLS[1]).map(move |j| [share(i, 0), share(j, 1)]))
 }
 
-/// Value by bilinear interpolation; NaN next to a grid point without a result.
+/// Returns the value by bilinear interpolation; NaN next to a grid point without a result.
 fn value(field: &Field, place: [f64; 2]) -> f64 {
     let counts = [field.xs.len(), field.ys.len()];
     let along = [0, 1].map(|axis| place[axis] * (counts[axis] - 1) as f64);
@@ -80,7 +80,7 @@ fn value(field: &Field, place: [f64; 2]) -> f64 {
     node(0, 0) + node(0, 1) + node(1, 0) + node(1, 1)
 }
 
-/// Class at a position: that of the nearest grid point, changed at each border crossed from there. `None` without a result.
+/// Returns the class of the grid point nearest to a position, changed at each border crossed from there. `None` without a result.
 fn class(map: &Map, field: &Field, place: [f64; 2]) -> Option<usize> {
     let counts = [field.xs.len(), field.ys.len()];
     // Points on the rim may have a class without an area, such as stick at zero amplitude.
@@ -101,7 +101,7 @@ fn class(map: &Map, field: &Field, place: [f64; 2]) -> Option<usize> {
     Some(here)
 }
 
-/// Whether two line segments cross.
+/// Returns whether two line segments cross.
 fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
         (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]) > 0.0
@@ -109,7 +109,7 @@ fn crosses([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b)
 }
 
-/// Position of each class name: the sample of that class farthest from other classes and from the rim.
+/// Returns the position of each class name: the sample of that class farthest from other classes and from the rim.
 fn names(map: &Map, field: &Field) -> Vec<([f64; 2], usize)> {
     let place = |k: usize| {
         let [i, j] = [k / SAMPLES[1], k % SAMPLES[1]];

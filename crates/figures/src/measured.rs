@@ -20,7 +20,7 @@ const COLUMNS: usize = 600;
 const LEVELS: usize = 120;
 /// Width of the colour bar relative to the map.
 const BAR: f64 = 0.3;
-/// Line width of the last measured loop and of earlier ones.
+/// Line width of the last measured loop and of earlier loops.
 const BOLD: f64 = 1.15;
 const FINE: f64 = 0.9;
 
@@ -86,7 +86,7 @@ pub fn draw_course(course: &Course<'_>, look: &Look) -> Result<Vec<Picture>, Fig
     Ok(pictures)
 }
 
-/// Map of the force over cycle and displacement; `None` if the displacements have no range.
+/// Returns the map of the force over cycle and displacement; `None` if the displacements have no range.
 fn log_figure<'a>(course: &Course<'a>) -> Option<Figure<'a>> {
     let count = course.loops.len().min(COLUMNS);
     let chosen: Vec<usize> = (0..count).map(|k| k * (course.loops.len() - 1) / (count - 1).max(1)).collect();
@@ -116,7 +116,7 @@ fn log_figure<'a>(course: &Course<'a>) -> Option<Figure<'a>> {
     Some(figure)
 }
 
-/// Force at given displacements on the branch from the largest to the smallest displacement; NaN outside.
+/// Returns the force at given displacements on the branch from the largest to the smallest displacement; NaN outside.
 fn falling(curve: &Curve<'_>, at: &[f64]) -> Vec<f64> {
     let count = curve.u.len();
     let place = |is_better: fn(f64, f64) -> bool| {
@@ -137,7 +137,7 @@ fn falling(curve: &Curve<'_>, at: &[f64]) -> Vec<f64> {
     at.iter().map(|u| force(*u).unwrap_or(f64::NAN)).collect()
 }
 
-/// Results over the cycles, one panel each.
+/// Returns the results over the cycles, one panel each.
 fn evolution_figure<'a>(course: &Course<'a>) -> Figure<'a> {
     let panel = |(name, unit, values): &(&'static str, &'static str, Vec<f64>)| Panel {
         x: Axis::new(Label::plain("cycle"), ""),

@@ -106,7 +106,7 @@ impl Origin {
         Ok(Self { job, program, end, fingerprint })
     }
 
-    /// Whether the run reached its planned end.
+    /// Returns whether the run reached its planned end.
     pub fn is_whole(&self) -> bool {
         self.end >= self.job.scenario.plan.duration
     }

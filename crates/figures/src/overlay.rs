@@ -8,7 +8,7 @@ use stickslip_run::program::this_program;
 use stickslip_run::provenance::{HASH, PROGRAM, TITLE};
 use stickslip_scenario::PlotName;
 
-/// Plots that can be overlaid: those with curves only.
+/// Plots that can be overlaid: plots that consist of curves only.
 pub const OVERLAID: [PlotName; 4] = [PlotName::Loop, PlotName::Trajectory, PlotName::Phase, PlotName::Xy];
 
 /// Returns the name of the overlay of a plot.
@@ -49,7 +49,7 @@ pub fn draw(
     Ok(drawn)
 }
 
-/// Describes the panels of the first figure and of one with other panels.
+/// Describes the panels of the first figure and of a figure with other panels.
 fn unlike(figures: &[(String, Figure<'_>)]) -> String {
     let told = |(name, figure): &(String, Figure<'_>)| format!("{name} has {}", panels(figure));
     let first = figures.first();
@@ -73,7 +73,7 @@ fn panels(figure: &Figure<'_>) -> String {
     figure.panels.iter().map(panel).collect::<Vec<_>>().join(" and ")
 }
 
-/// Common title of the results, or their names.
+/// Returns the common title of the results, or their names.
 fn title(results: &[(String, Sources<'_>)]) -> String {
     let mut titles = results.iter().map(|(_, sources)| sources.job.title());
     match titles.next() {
@@ -82,7 +82,7 @@ fn title(results: &[(String, Sources<'_>)]) -> String {
     }
 }
 
-/// Metadata of the picture. It has several scenarios, so it contains only their hashes.
+/// Returns the metadata of the picture, which contain only the hashes of its scenarios.
 fn provenance(results: &[(String, Sources<'_>)]) -> Vec<(String, String)> {
     let mut texts = vec![(TITLE.to_owned(), title(results)), (PROGRAM.to_owned(), this_program())];
     for (number, (_, sources)) in (1..).zip(results) {

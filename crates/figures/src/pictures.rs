@@ -94,8 +94,8 @@ pub enum FigureError {
     },
 }
 
-/// Draws each plot that the scenario selects once, in the order of [`PlotName`]. Each plot has its own result; an
-/// error does not affect the others.
+/// Draws each plot that the scenario selects once, in the order of [`PlotName`]. Each plot has its own result; an error does not affect the
+/// other plots.
 pub fn draw(sources: &Sources<'_>, look: &Look) -> Vec<Result<Vec<Picture>, FigureError>> {
     let mut plots = sources.job.scenario.plots.clone();
     plots.sort_by_key(|plot| *plot as u8);
@@ -121,7 +121,7 @@ pub fn draw_one(sources: &Sources<'_>, plot: PlotName, look: &Look) -> Result<Ve
     picture(sources, plot, &Pen { look, provenance: provenance(sources.job, sources.kept), kept: None })
 }
 
-/// Description of a plot.
+/// Returns the description of a plot.
 pub(crate) fn shows(plot: PlotName) -> &'static str {
     kind(plot).shows
 }
@@ -198,13 +198,13 @@ fn written<'a>(table: &'a SealedTable, file: &'static str) -> Result<&'a SealedT
     if table.path.exists() { Ok(table) } else { Err(Undrawn::Absent(file)) }
 }
 
-/// Adds to a title how many of all contacts or times are shown, if not all.
+/// Adds the number of shown contacts or times to a title if some are left out.
 fn of_all(title: &str, which: &str, (shown, all): (usize, usize)) -> String {
     let which = if which.is_empty() { String::new() } else { format!("the {which} ") };
     if shown < all { format!("{title} ({which}{shown} of {all} in the table)") } else { title.to_owned() }
 }
 
-/// Title of a plot that requires all events: with the time range in which they are available, if that is not the whole run.
+/// Returns the title of a plot of all events, with the time range in which all events are available if shorter than the run.
 fn whole_title(job: &Job, kept: &Kept) -> String {
     let time = |t: f64| quantity(Real(t), "s");
     let (title, until, end) = (job.title(), kept.whole_until(), kept.end());
@@ -220,7 +220,7 @@ fn whole_title(job: &Job, kept: &Kept) -> String {
     }
 }
 
-/// Columns of given quantities of all contacts.
+/// Returns the columns of given quantities of all contacts.
 fn of_contacts(job: &Job, quantities: &[&str]) -> Vec<String> {
     let names = job.model.contacts().map(|(name, _)| name);
     names.flat_map(|name| quantities.iter().map(move |quantity| format!("{name}.{quantity}"))).collect()

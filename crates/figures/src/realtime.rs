@@ -15,7 +15,7 @@ use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 
 /// Names of the plots.
 pub const NAMES: [&str; 2] = ["realtime", "timeline"];
-/// Maximum number of panels of a timeline, without that of the times per frame.
+/// Maximum number of panels of a timeline, without the panel of the times per frame.
 const MOST: usize = 6;
 /// Units by the ends of channel names, longer ends first.
 const UNITS: [(&str, &str); 7] = [
@@ -58,7 +58,7 @@ pub fn draw(job: &Job, report: &Report, ended: &Ended, look: &Look) -> Result<Ve
     Ok(pictures)
 }
 
-/// Histograms of execution time and, in paced runs, of wake-up latency, each with that of an empty loop.
+/// Returns histograms of execution time and, in paced runs, of wake-up latency, each with the histogram of an empty loop.
 fn times_panels<'a>(report: &Report, ended: &Ended) -> Vec<TimesPanel<'a>> {
     let (timing, floor) = (&ended.timing, &ended.floor);
     let panel = |what, [own, empty]: [&Histogram; 2], marked| {
@@ -82,7 +82,7 @@ fn curve<'a>(name: &'a str, is_beside: bool, histogram: &Histogram) -> TimesCurv
     TimesCurve { name, is_beside, bins: histogram.tenths() }
 }
 
-/// Slowest frames, grouped by their kind.
+/// Returns the slowest frames, grouped by their kind.
 fn slowest(timing: &Timing) -> Vec<MarkedTimes<'static>> {
     let usual = timing.usual();
     let of = |name: &'static str| {
@@ -95,7 +95,7 @@ fn slowest(timing: &Timing) -> Vec<MarkedTimes<'static>> {
 /// Quantity, and the names and values of its channels.
 type Group<'a> = (&'a str, Vec<(&'a str, &'a [f64])>);
 
-/// Panels of inputs and outputs, one per quantity, and last the times per frame.
+/// Returns the panels of inputs and outputs, one per quantity, and last the times per frame.
 fn timeline<T>(job: &Job, report: &Report, ended: &Ended, draw: impl FnOnce(&[TimelinePanel<'_>]) -> T) -> T {
     let film = &ended.film;
     let series = |names: &[String], values: &[Vec<f64>]| -> Vec<(String, Vec<f64>)> {
@@ -135,7 +135,7 @@ fn timeline<T>(job: &Job, report: &Report, ended: &Ended, draw: impl FnOnce(&[Ti
     draw(&panels)
 }
 
-/// Whether a body follows the waveform of this channel.
+/// Returns whether a body follows the waveform of this channel.
 fn moves(scene: &Scene, channel: &str) -> bool {
     let is_it = |coordinate: &Coordinate| match coordinate.freedom {
         Freedom::Follows(place) => scene.waveforms.get(place).is_some_and(|waveform| {
@@ -146,7 +146,7 @@ fn moves(scene: &Scene, channel: &str) -> bool {
     scene.bodies.iter().any(|body| is_it(&body.part.x) || is_it(&body.part.z))
 }
 
-/// Axis label and unit of a quantity.
+/// Returns the axis label and unit of a quantity.
 fn named(quantity: &str) -> (&str, &'static str) {
     let found = UNITS.iter().find_map(|(end, unit)| Some((quantity.strip_suffix(end)?, *unit)));
     match found {

@@ -1,4 +1,4 @@
-//! Plot of sensitivities: elasticities as bars.
+//! Plot of sensitivities: elasticities of results as bars.
 
 use crate::look::{Look, Pen, Picture};
 use crate::pictures::FigureError;
@@ -6,7 +6,7 @@ use stickslip_plot::{Bar, Tornado, tornado_figure};
 use stickslip_run::provenance::{HASH, PROGRAM, SCENARIO, TITLE};
 use stickslip_study::sensitivity::{Sensitivity, Taken};
 
-/// Names of the plot: complete, and interrupted.
+/// Names of the plot of a complete and of an interrupted sensitivity analysis.
 const NAMES: [&str; 2] = ["sensitivity", "sensitivity-partial"];
 /// Maximum number of bars per result, and of results; the table contains all.
 const BARS: usize = 12;
@@ -16,8 +16,8 @@ const DOUBT: f64 = 0.01;
 /// Elasticities below this magnitude are written with exponents.
 const PLACES: f64 = 0.1;
 
-/// Returns all possible file names of the plot; existing ones are deleted when it is written. A complete plot also
-/// replaces an interrupted one.
+/// Returns all possible file names of the plot; existing files are deleted when the plot is written. A complete plot also replaces an
+/// interrupted one.
 pub fn all_files(is_cut: bool) -> Vec<String> {
     Look::all_files_of(&NAMES[usize::from(is_cut)..])
 }
@@ -59,7 +59,7 @@ pub fn draw((asked, taken): (&Sensitivity, &Taken), look: &Look) -> Result<Vec<P
     pen.draw_as(plot, figure).map_err(|source| FigureError::Plot { plot, source })
 }
 
-/// Bars of a result with their errors, the longest first.
+/// Returns the bars of a result with their errors, the longest first.
 fn bars(asked: &Sensitivity, taken: &Taken, f: usize) -> Vec<(Bar, f64)> {
     let of = |q: usize| {
         let elasticity = move |slope: f64| Taken::elasticity(asked, (f, q), slope);

@@ -63,7 +63,7 @@ pub fn draw(job: &Job, found: &Steady, series: &Series, look: &Look) -> Result<V
         .map_err(|source| FigureError::Plot { plot: NAME, source })
 }
 
-/// Tangential force of a contact; zeros if it is within rounding errors.
+/// Returns the tangential force of a contact; zeros if the force is within rounding errors.
 fn force(job: &Job, series: &Series, (c, name): (usize, &str)) -> Vec<f64> {
     let force = series.column(name, "fx_N");
     let least = ROUNDING * job.contact_scale(c).1;
@@ -71,7 +71,7 @@ fn force(job: &Job, series: &Series, (c, name): (usize, &str)) -> Vec<f64> {
     if is_some { force.to_vec() } else { vec![0.0; force.len()] }
 }
 
-/// Positions relative to their start, without the drift over the period.
+/// Returns the positions relative to their start, without the drift over the period.
 fn returning<'a>(time: &[f64], tracks: &[Track<'a>]) -> Vec<(&'a str, Vec<f64>)> {
     let length = time.last().copied().unwrap_or(0.0);
     let of = |track: &Track<'a>| {

@@ -1,6 +1,6 @@
 //! Plots of a single contact under a load history.
 //!
-//! They use the same builders of `stickslip-plot` as the plots of runs.
+//! The plots use the same builders of `stickslip-plot` as the plots of runs.
 
 pub(crate) mod moments;
 
@@ -34,7 +34,7 @@ pub fn all_files() -> Vec<String> {
     Look::all_files_of(&NAMES)
 }
 
-/// Draws all plots, the animation only if `is_animated`. Each plot has its own result; an error does not affect the others.
+/// Draws all plots, the animation only if `is_animated`. Each plot has its own result; an error does not affect the other plots.
 pub fn draw(
     subject: &Subject<'_>,
     sheet: &Sheet,
@@ -64,7 +64,7 @@ pub fn draw(
     pictures
 }
 
-/// Metadata of the pictures.
+/// Returns the metadata of the pictures.
 fn provenance(subject: &Subject<'_>) -> Vec<(String, String)> {
     let job = subject.job;
     let entries = [
@@ -87,13 +87,13 @@ fn cycle(law: &Interface, walk: &Walk, title: &str) -> Vec<Figure<'static>> {
     figures
 }
 
-/// At most `most` of `count` indices, equally spaced, including the first and the last.
+/// Returns at most `most` of `count` indices, equally spaced, including the first and the last.
 fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     let shown = count.min(most);
     (0..shown).map(move |k| if count <= most { k } else { k * (count - 1) / (shown - 1) })
 }
 
-/// Loop with its corners numbered.
+/// Calls `drawn` with the hysteresis loop and its numbered corners.
 fn hysteresis<T>(
     law: &Interface,
     walk: &Walk,
@@ -116,7 +116,7 @@ fn hysteresis<T>(
     drawn(course, &marks)
 }
 
-/// Profiles f(r) and g(x).
+/// Calls `drawn` with the profiles f(r) and g(x).
 fn profile<T>(law: &Interface, sheet: &Sheet, walk: &Walk, drawn: impl FnOnce(&ProfilePair<'_>) -> T) -> T {
     let reach = BEYOND * law.profile().radius(walk.deepest);
     let x: Vec<f64> = (0..POINTS).map(|k| reach * k as f64 / (POINTS - 1) as f64).collect();
@@ -126,7 +126,7 @@ fn profile<T>(law: &Interface, sheet: &Sheet, walk: &Walk, drawn: impl FnOnce(&P
     drawn(&ProfilePair { x: &x, f: f.as_deref(), g: &g, d, a })
 }
 
-/// Profile f at given distances, m: from its formula, or as d - deflection of a contact with that radius. `None` for lists of springs.
+/// Returns the profile f at given distances, m: by its formula, or d - deflection of a contact of that radius. `None` for spring lists.
 fn gaps(law: &Interface, x: &[f64]) -> Option<Vec<f64>> {
     let farthest = x.last().copied().unwrap_or(0.0);
     let d = law.profile().depth(farthest);
@@ -140,7 +140,7 @@ fn gaps(law: &Interface, x: &[f64]) -> Option<Vec<f64>> {
     Some(x.iter().map(|r| gap(*r)).collect())
 }
 
-/// Friction work per area over radius and history.
+/// Calls `drawn` with the friction work per area over radius and history.
 fn friction<T>(walk: &Walk, drawn: impl FnOnce(&FrictionWork<'_>) -> T) -> T {
     let along = |corner: usize, share: f64| corner as f64 - 1.0 + share;
     let (mut moments, mut work) = (Vec::new(), Vec::new());

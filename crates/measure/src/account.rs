@@ -1,7 +1,7 @@
 //! Evaluation of one drive period: travel of the body in the forward and return strokes, slip and ringing of the contacts, energies.
 //!
-//! The last whole period and the current one are kept. Inputs are sampled states at period ends and at turning points of the waveform, and
-//! events.
+//! The results of the last whole period and of the current period are kept. Inputs are events, and states at period ends and turning points
+//! of the waveform.
 
 mod phases;
 
@@ -15,7 +15,7 @@ use stickslip_drive::{EventKind, Source};
 
 /// Amplitude of a force oscillation, relative to the friction limit, above which it counts as ringing.
 pub const RINGING: f64 = 0.05;
-/// Codes of an open contact and of gross slip in the column `state`.
+/// Numbers in the column `state` for an open contact and for gross slip.
 const OPEN: f64 = 0.0;
 const SLIP: f64 = 3.0;
 
@@ -27,26 +27,26 @@ pub struct Accounts {
     /// Indices of the channels of the body's x and of the first energy.
     places: [usize; 2],
     contacts: Vec<Watched>,
-    /// Last sample: time, s, position x, m, and direction of the waveform after it.
+    /// Last sample: time, s, position x of the body, m, and direction of the waveform after this time.
     last: Option<(f64, f64, Sense)>,
-    /// Time at which the waveform took its current direction, and time until which the direction is known, s.
+    /// Time of the last turning point of the waveform, and time until which its direction is known, s.
     turned: f64,
     sure_until: f64,
     now: Option<Account>,
     whole: Option<Account>,
 }
 
-/// A contact of the body.
+/// A contact of the body, with the state of its evaluation.
 #[derive(Debug)]
 struct Watched {
-    /// Index of the contact in the model, and indices of the channels of its tangential force, normal force and state.
+    /// Index of the contact in the model, and channel indices of its tangential force, normal force and state.
     c: usize,
     places: [usize; 3],
     friction: f64,
     /// Kind of the events that report reversals of u.
     turn: &'static str,
     slips: bool,
-    /// Tangential force at the last reversal.
+    /// Tangential force at the last reversal of u or at the last onset or end of gross slip.
     extreme: Option<Extreme>,
 }
 
@@ -68,9 +68,9 @@ pub struct Account {
     pub span: [f64; 2],
     /// Durations, s.
     pub time: [f64; 2],
-    /// Displacement of the body, m. The third value is for a constant waveform.
+    /// Displacement of the body, m. The third value is for intervals with a constant waveform.
     pub travel: [f64; 3],
-    /// Changes of input, kinetic, elastic, friction and damping energy, J. Until the period ends: their values at its start.
+    /// Changes of input, kinetic, elastic, friction and damping energy, J. In the current period: their values at its start.
     pub energies: [f64; 5],
     /// Results of each contact.
     pub contacts: Vec<ContactAccount>,
@@ -83,11 +83,11 @@ pub struct ContactAccount {
     pub c: usize,
     /// Time in gross slip, s.
     pub slip: [f64; 2],
-    /// Number of reversals of u, except those that end gross slip.
+    /// Number of reversals of the displacement u, without reversals that end gross slip.
     pub reversals: [u32; 2],
     /// Time from the turning point of the waveform to the last force oscillation above [`RINGING`], s. `None` without such an oscillation.
     pub rings: [Option<f64>; 2],
-    /// Amplitude of the last force oscillation, relative to the mean friction limit at its two extremes.
+    /// Amplitude of the last oscillation of the tangential force, relative to the mean friction limit at its two extremes.
     pub swing: [f64; 2],
     /// The two extremes of the last force oscillation.
     pub turns: [Option<[Extreme; 2]>; 2],
@@ -105,7 +105,7 @@ fn side(sense: Sense) -> Option<usize> {
 impl Accounts {
     /// Creates the evaluation for the body and the waveform of the scenario's `figures`.
     ///
-    /// Returns `None` if the body is not free or the waveform is not periodic. `places` are the channel indices by name.
+    /// Returns `None` if the body is not free or the waveform is not periodic. `places` contains the channel indices by name.
     pub fn of(setting: &Setting, places: &HashMap<&str, usize>) -> Option<Self> {
         let (scene, figures) = (&setting.scenario.scene, setting.scenario.figures);
         let b = figures.body?;
@@ -157,7 +157,7 @@ impl Accounts {
             }
             None => {
                 self.turned = t;
-                // No event reports a contact that slips from the start.
+                // A contact that slips from the start of the run has no event at the onset of slip.
                 for contact in &mut self.contacts {
                     contact.slips = values.get(contact.places[2]) == Some(&SLIP);
                 }
@@ -174,7 +174,7 @@ impl Accounts {
         }
     }
 
-    /// Returns the direction of the waveform after time t, s. Times must be ascending. The result is cached until the next turning point.
+    /// Returns the direction of the waveform after time t, s. Times must ascend, because the result is cached until the next turning point.
     fn sense_after(&mut self, t: f64) -> Sense {
         if let Some((_, _, sense)) = self.last.filter(|_| t < self.sure_until) {
             return sense;
@@ -184,7 +184,7 @@ impl Accounts {
         sense
     }
 
-    /// Adds a time interval, s, with the displacement of the body, m.
+    /// Adds a time interval of length `time`, s, in which the body moved by `way`, m.
     fn pass(&mut self, time: f64, way: f64, sense: Sense) {
         let Some(now) = &mut self.now else { return };
         let side = side(sense);
@@ -227,8 +227,8 @@ impl Accounts {
         // An open contact has no reversals. A reversal that ends gross slip is not counted.
         let has_turned = kind == contact.turn && state != OPEN;
         let turns = has_turned && !contact.slips;
-        // The events decide on gross slip, because the state in their rows may be that of either side. Only a contact that slips from its
-        // touch on has no other event.
+        // The kind of an event decides on gross slip, because the state in its row may be that before or after the event. Only a contact
+        // that slips from its touch on has no other event.
         contact.slips = match () {
             () if begins => true,
             () if ends || opens || kind == EventKind::FullStick.name() => false,

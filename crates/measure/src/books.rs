@@ -7,28 +7,28 @@ use stickslip_drive::{Accuracy, Channel, Stepper};
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// Largest error of the balance, relative to the throughput, without a warning.
+/// Largest error of the energy balance that causes no warning, relative to the throughput.
 const OPEN: f64 = 1e-2;
-/// Largest error of the balance without a warning, in tolerances times the throughput.
+/// Largest error of the energy balance that causes no warning, relative to the product of tolerance and throughput.
 const TOLERANCES: f64 = 100.0;
-/// Rounding error of the balance relative to its largest energy.
+/// Rounding error of the energy balance, relative to the largest energy in it.
 const ROUNDING: f64 = 1e-12;
 
-/// Energies at the end of a run, J, and the largest error of their balance.
+/// Energies at the end of a run, J, and the largest error of the energy balance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Books {
     places: [Option<usize>; 6],
     end: [f64; 6],
-    /// Indices of the friction work of each contact in a row, and the work at the end, J.
+    /// Friction work of each contact: channel index, and value at the end of the run, J.
     friction: Vec<(usize, f64)>,
-    /// Elastic energy at the start, J. It is above 0 if a contact is pressed.
+    /// Elastic energy at the start of the run, J, above 0 if a contact is pressed.
     elastic_before: Option<f64>,
     throughput: f64,
     /// Largest energy in the balance, J.
     largest: f64,
     worst: f64,
-    /// Largest magnitude of the error at events, J. Events end time steps; rows between steps without dense output are
-    /// interpolated linearly.
+    /// Largest magnitude of the error at events, J. Other rows may have a larger error, because without dense output they are interpolated
+    /// linearly.
     worst_at_events: f64,
 }
 
@@ -66,7 +66,7 @@ pub struct Balance {
 }
 
 impl Books {
-    /// Creates the balance for the channels of a model.
+    /// Creates the energy balance for the channels of a model.
     pub fn new(channels: &[Channel]) -> Self {
         let names = ["input", "kinetic", "elastic", "friction", "damping", "error"];
         let place = |name| channels.iter().position(|c| c.name == format!("energy.{name}_J"));
@@ -84,7 +84,7 @@ impl Books {
         }
     }
 
-    /// Reads a row of all channels.
+    /// Updates the energy balance from a row of all channels.
     pub fn read(&mut self, row: &[f64]) {
         self.end = self.places.map(|place| place.and_then(|p| row.get(p)).copied().unwrap_or(f64::NAN));
         for (place, work) in &mut self.friction {
@@ -95,13 +95,13 @@ impl Books {
         let flows = [input.abs(), kinetic, (elastic - before).abs(), friction + damping];
         self.throughput = flows.into_iter().fold(self.throughput, f64::max);
         self.largest = self.largest.max(elastic.abs()).max(self.throughput);
-        // A NaN must not pass for a small error.
+        // An error that is NaN counts as the largest error.
         if error.is_nan() || error.abs() > self.worst {
             self.worst = error.abs();
         }
     }
 
-    /// Reads the row of an event.
+    /// Updates the energy balance from the row of an event.
     pub fn read_event(&mut self, row: &[f64]) {
         self.read(row);
         let error = self.end[5].abs();
@@ -121,7 +121,7 @@ impl Books {
         self.friction.get(c).map_or(0.0, |(_, work)| *work)
     }
 
-    /// Returns the balance for the summary.
+    /// Returns the energy balance for the summary.
     pub fn balance(&self) -> Balance {
         let [input, kinetic, elastic, friction, damping, error] = self.end.map(Real);
         Balance {
@@ -133,19 +133,19 @@ impl Books {
             error,
             largest_error: Real(self.worst),
             throughput: Real(self.throughput),
-            // A throughput below the rounding error of the stored energy has no ratio.
+            // The relative error is absent if the throughput is below the rounding error of the stored energy.
             largest_error_relative: (self.throughput > ROUNDING * self.largest)
                 .then(|| Real(self.worst / self.throughput)),
         }
     }
 }
 
-/// Returns a warning if the error of the balance is too large: above `OPEN` of the throughput with any stepper, or
-/// above `TOLERANCES` tolerances if the user chose one.
+/// Returns a warning if the error of the energy balance, relative to the throughput, exceeds `OPEN`, or `TOLERANCES` times a tolerance that
+/// the user chose.
 ///
-/// Each energy is computed separately: the input from the work of prescribed motions and loads, the others from
-/// positions, velocities, memories and integrals. The balance therefore closes only if the time steps are accurate.
-/// `finest` is the rounding error of the start positions in natural displacements; no tolerance below it can be met.
+/// Each energy is computed separately: the input from the work of prescribed motions and loads, the others from positions, velocities,
+/// memories and integrals. The balance is therefore satisfied only if the time steps are accurate. `finest` is the rounding error of the
+/// initial positions, relative to the natural displacement; no smaller tolerance can be met.
 pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> Option<Warning> {
     let has_dense_output = matches!(stepper, Stepper::Event { .. });
     let missing = if has_dense_output { books.worst } else { books.worst_at_steps() };
@@ -170,11 +170,11 @@ pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> 
     }
     let tolerance = match stepper.accuracy() {
         Accuracy::Tolerance(tolerance) if is_asked => tolerance,
-        // The tolerance is not the user's if the integrator differs from the requested stepper.
+        // If the integrator differs from the requested stepper, the user did not choose the tolerance.
         Accuracy::Tolerance(_) | Accuracy::Step(_) | Accuracy::Frame { .. } => return None,
     };
     let unit = tolerance * through;
-    // Everything is rounding if no ratio is printed.
+    // Without a relative error, the energies are rounding errors.
     if missing <= TOLERANCES * unit || through <= rounding {
         return None;
     }
@@ -199,7 +199,7 @@ pub fn warning(books: &Books, stepper: Stepper, is_asked: bool, finest: f64) -> 
     said.map(|warning| warning.help(help))
 }
 
-/// Returns advice for an error of the balance.
+/// Returns advice for a large error of the energy balance.
 fn advice(stepper: Stepper) -> &'static str {
     match stepper {
         Stepper::Event { .. } => "use a smaller tolerance, and compare the results",

@@ -1,11 +1,11 @@
-//! Hysteresis cycles of a contact, evaluated from sampled states and from the contact law between them.
+//! Hysteresis cycles of a contact, evaluated from sampled states and, between the samples, from the contact law.
 //!
-//! A cycle is evaluated when it ends. Therefore only the samples of the current cycle are stored, whatever the length of the run. Cycles
-//! between the reversals of a table, which has no period, are evaluated at the end of the run.
+//! A cycle is evaluated when it ends. Therefore only the samples of the current cycle are stored. If a table without a period drives the
+//! contact, the cycles extend between reversals and are evaluated at the end of the run.
 //!
-//! Results do not depend on the written rows. Cycle ends are sampling times, reversals are events. If the contact law does not depend on
-//! time, it is evaluated again between the samples. Otherwise the samples are dense: extremes are those of interpolating polynomials. The
-//! mean of a prescribed load is the integral of its waveform.
+//! The results do not depend on the rows that are written. Cycle ends are sampling times, reversals are events. If the contact law does not
+//! depend on time, it is evaluated again between the samples. Otherwise the samples are dense, and extremes are computed from interpolating
+//! polynomials. The mean of a prescribed load is computed by integration of its waveform.
 
 mod judged;
 mod load;
@@ -29,9 +29,9 @@ use stickslip_drive::Waveform;
 use stickslip_drive::scene::Side;
 use walk::{Question, Walk};
 
-/// Relative change of a force, compared with the friction limit, that counts as rounding.
+/// Change of a force, relative to the friction limit, below which it counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
-/// Amplitude of u below which a contact is at rest, relative to the natural displacement. `FIXED` applies to fixed time steps.
+/// Amplitude of u, relative to the natural displacement, below which a contact counts as at rest. `FIXED` is for fixed time steps.
 const STILL: f64 = 1e-12;
 const FIXED: f64 = 1e-9;
 /// Fraction of the displacement range over which a secant stiffness is computed.
@@ -42,10 +42,10 @@ const WINDOW: f64 = crate::fretting::STIFFNESS_WINDOW;
 pub struct CycleFigures {
     /// Start and end, s.
     pub time: [f64; 2],
-    /// Whether the tangential force returns, too. Otherwise the cycle is no closed loop and has no ratios.
+    /// Whether the tangential force returns to its initial value, too. Otherwise the loop is open and has no ratios.
     pub is_closed: bool,
     /// Amplitudes, opening, dissipated energy and stiffnesses. The dissipated energy E_d includes known damping losses. The stiffnesses are
-    /// the contact stiffness in full stick.
+    /// those of the contact law in full stick, not fitted values.
     pub cycle: Cycle,
     /// Energy dissipated by the damping of the contact, J; 0 without damping. `None` if it cannot be separated from other damping losses.
     pub damping: Option<f64>,
@@ -55,7 +55,7 @@ pub struct CycleFigures {
     pub normal: f64,
     /// Indentation at the start, m.
     pub depth: f64,
-    /// Whether the range of u is below the resolution. Such a cycle has no loop.
+    /// Whether the range of u is below the resolution, so that the contact is at rest and there is no loop.
     pub is_still: bool,
 }
 
@@ -70,18 +70,18 @@ impl CycleFigures {
         self.damping.map(|_| self.cycle.dissipated)
     }
 
-    /// Returns the value if the loop is closed.
+    /// Returns `value` for a closed loop, and `None` for an open loop.
     pub fn of_loop(&self, value: Option<f64>) -> Option<f64> {
         value.filter(|_| self.is_closed)
     }
 
-    /// Returns a ratio with `E_d` if the loop is closed and all of its losses are known.
+    /// Returns the ratio `value`, which contains `E_d`, for a closed loop whose losses are all known, and `None` otherwise.
     pub fn ratio(&self, value: Option<f64>) -> Option<f64> {
         self.of_loop(value).filter(|_| self.damping.is_some())
     }
 }
 
-/// Samples of a contact since the start of the current cycle, or since the start of the run if cycles are evaluated at its end.
+/// Samples of a contact since the start of the current cycle, or since the start of the run if cycles are evaluated at the end of the run.
 #[derive(Debug, Clone, Default)]
 struct Track {
     t: Vec<f64>,
@@ -95,7 +95,7 @@ struct Track {
     bends: Vec<bool>,
 }
 
-/// Sample of a contact: u and d, m, forces, N, and the energies dissipated by friction and damping so far, J.
+/// Sample of a contact: displacement u and indentation d, m, forces, N, and energies dissipated by friction and damping so far, J.
 #[derive(Debug, Clone, Copy)]
 struct Moment {
     u: f64,
@@ -132,13 +132,13 @@ impl Track {
         self.columns().into_iter().zip(values).for_each(|(column, value)| column.push(value));
     }
 
-    /// Returns all columns except time, in the order of the fields of [`Moment`].
+    /// Returns the columns of the samples except time, in the order of the fields of [`Moment`].
     fn columns(&mut self) -> [&mut Vec<f64>; 6] {
         let Self { u, d, force, normal, friction, damping, .. } = self;
         [u, d, force, normal, friction, damping]
     }
 
-    /// Removes all samples except the last one.
+    /// Removes all samples except the last sample.
     fn keep_last(&mut self) {
         let gone = self.t.len().saturating_sub(1);
         self.columns().into_iter().for_each(|column| drop(column.drain(..gone)));
@@ -163,7 +163,7 @@ impl Track {
         let secant = |extreme: f64| {
             let found = questions.iter().find(|q| q.u.is_some() && q.extreme == extreme)?;
             let (from, way) = (self.at_extreme(span, extreme)?, found.u? - extreme);
-            // A contact at rest has no secant.
+            // Without displacement there is no secant stiffness.
             (way != 0.0).then(|| (found.answer - self.force[from]) / way)
         };
         let tangent = |extreme: f64| {
@@ -176,7 +176,7 @@ impl Track {
             Some(load) => load.mean(law, time),
             None => mean_over_time(&self.t[a..=b], &self.normal[a..=b]),
         };
-        // Changes within rounding have no loop.
+        // Force changes below the rounding error do not form a loop.
         let moves = most - least > ROUNDING * law.friction() * normal;
         let peaks = |values: &[f64]| {
             if setup.is_dense {
@@ -186,7 +186,7 @@ impl Track {
             }
         };
         let ((left, right), (pulled, pushed)) = (peaks(&self.u), peaks(&self.force));
-        // Polynomials near an event may exceed the friction limit. Without damping, the force cannot.
+        // Near an event, an interpolating polynomial may exceed the friction limit. Without damping, the force cannot exceed it.
         let limit =
             if law.damping() > 0.0 { f64::INFINITY } else { law.friction() * extent(&self.normal[a..=b]).1 };
         let (pulled, pushed) = (pulled.max(least.min(-limit)), pushed.min(most.max(limit)));
@@ -196,7 +196,7 @@ impl Track {
             displacement_amplitude: 0.5 * (right - left),
             force_amplitude: 0.5 * (pushed - pulled),
             half_opening: self.half_opening(&questions, middle).filter(|_| moves && is_closed),
-            // A contact in full stick may have a friction work slightly below 0, within the tolerance.
+            // The friction work of a contact in full stick may be slightly below 0, within the tolerance of the integrator.
             dissipated: (self.friction[b] - self.friction[a]).max(0.0) + damping.unwrap_or(0.0).max(0.0),
             stiffness_after_maximum: tangent(high),
             stiffness_after_minimum: tangent(low),
@@ -213,7 +213,7 @@ impl Track {
         }
     }
 
-    /// Returns the points to be evaluated: where F_x crosses the middle of its range, and the ends of both secants.
+    /// Returns the points of a cycle to be evaluated: crossings of F_x with the middle of its range, and ends of both secants.
     fn questions(&self, span: &Range<usize>, (low, high): (f64, f64), middle: f64) -> Vec<Question> {
         let changes = |i: &usize| (self.force[*i] < middle) != (self.force[*i + 1] < middle);
         let zeros =
@@ -221,7 +221,7 @@ impl Track {
         let window = WINDOW * (high - low);
         let back = |(extreme, u): (f64, f64)| {
             let from = self.at_extreme(span, extreme)?;
-            // The search wraps around, because the end of the secant may be before the extreme in time.
+            // The search continues at the start of the cycle, because the end of the secant may precede the extreme in time.
             let mut on = (from..span.end).chain(span.start..from);
             let after = on.find(|i| (self.u[*i + 1] - extreme).abs() >= window)?;
             Some(Question { after, u: Some(u), extreme, answer: 0.0 })
@@ -232,13 +232,13 @@ impl Track {
         questions
     }
 
-    /// Returns the last sample at an extreme before u reverses. If the extreme is at both ends of the cycle, it is the last sample.
+    /// Returns the last sample at an extreme of u before the reversal. At the end of the cycle, it is the last sample of the cycle.
     fn at_extreme(&self, span: &Range<usize>, extreme: f64) -> Option<usize> {
         (span.start..=span.end)
             .rfind(|i| self.u[*i] == extreme && (*i == span.end || self.u[*i + 1] != extreme))
     }
 
-    /// Evaluates a point by linear interpolation between two samples.
+    /// Evaluates a point of a cycle by linear interpolation between two samples instead of the contact law.
     fn chord(&self, question: &Question, middle: f64) -> f64 {
         let (i, j) = (question.after, question.after + 1);
         match question.u {
@@ -253,9 +253,9 @@ impl Track {
         }
     }
 
-    /// Returns half the distance in u between the falling and the rising crossing of the middle force, m.
+    /// Returns half the distance in u, m, between the points at which the falling and the rising force cross the middle of their range.
     ///
-    /// Returns `None` if there is more than one crossing of either kind.
+    /// Returns `None` unless the cycle has one falling and one rising crossing.
     fn half_opening(&self, questions: &[Question], middle: f64) -> Option<f64> {
         let zeros = questions.iter().filter(|question| question.u.is_none());
         let (falling, rising): (Vec<&Question>, Vec<&Question>) =
@@ -267,7 +267,7 @@ impl Track {
     }
 }
 
-/// Returns whether the equations of motion determine the motion of a body of contact `c`.
+/// Returns whether the motion of a body of contact `c` is determined by integration of the equations of motion.
 pub fn is_integrated(setting: &Setting, c: usize) -> bool {
     let scene = &setting.scenario.scene;
     let sides = scene.contacts.get(c).into_iter().flat_map(|contact| contact.part.between);
@@ -280,7 +280,7 @@ pub fn is_integrated(setting: &Setting, c: usize) -> bool {
 
 /// Returns the range of u below which contact `c` counts as at rest, m.
 ///
-/// It is twice the natural displacement times the tolerance of the integrator, or times the rounding error for prescribed motion.
+/// This range is twice the natural displacement times the tolerance of the integrator, or times the rounding error for prescribed motion.
 fn still(setting: &Setting, c: usize) -> f64 {
     let natural = setting.model.contact_natural(c).map_or(0.0, |natural| natural.displacement);
     let promised = match setting.stepper() {
@@ -291,7 +291,7 @@ fn still(setting: &Setting, c: usize) -> f64 {
     2.0 * natural * promised.max(STILL)
 }
 
-/// Returns the non-periodic waveform that a body of contact `c` follows.
+/// Returns the non-periodic waveform, such as a table, that a body of contact `c` follows.
 pub fn table_of(setting: &Setting, c: usize) -> Option<&Waveform> {
     let waveforms = followed(setting, c).filter_map(|w| setting.scenario.scene.waveforms.get(w));
     waveforms.map(|waveform| &waveform.part).find(|waveform| waveform.period().is_none())

@@ -1,4 +1,4 @@
-//! Path of a contact in the (u, F_x) plane, refined for drawing and evaluation.
+//! Path of a contact in the (u, F_x) plane, with points inserted between the samples for drawing and evaluation.
 
 mod motion;
 
@@ -8,20 +8,20 @@ use crate::trail::Trail;
 use motion::Motion;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 
-/// Number of points for a force change from one friction limit to the opposite one.
+/// Number of points for a force change from one friction limit to the opposite limit.
 const FINENESS: f64 = 128.0;
 /// Maximum number of points between two samples if the contact is replayed along the motion.
 const PARTS: f64 = 64.0;
-/// Number of points of a curved path, relative to the square root of its curvature measure. A chord then deviates from it by 1/110² of the
-/// stroke, a tenth of a pixel.
+/// Number of points of a curved path, relative to the square root of its curvature measure. A chord between two points then deviates from
+/// the path by 1/110² of the stroke, a tenth of a pixel.
 const BENDS: f64 = 110.0;
 /// Minimum number of points if the force changes by more than [`STILL`] of its range.
 const LEAST: f64 = 8.0;
 const STILL: f64 = 1e-3;
 /// Maximum deviation of the replayed force from the sampled one, relative to the force range. With larger deviations no points are
-/// inserted. Smaller ones are distributed along the path.
+/// inserted; smaller deviations are distributed along the path.
 const OFF: f64 = 0.05;
-/// Number of samples from which no points are inserted.
+/// Number of samples above which no points are inserted.
 const MANY: usize = 50_000;
 
 /// Returns the path of contact `c`, all identical contacts together, with points inserted between the samples.
@@ -35,7 +35,7 @@ pub fn contact_path(setting: &Setting, c: usize, series: &Series) -> Trail {
     let samples = Trail { t: series.time().to_vec(), x: u.to_vec(), y: force.to_vec() };
     let Some(memory) = setting.start.memories().get(c) else { return samples };
     let count = f64::from(setting.count(c));
-    // If events are omitted, reversals may be missing. The sample before a jump may be missing, too.
+    // If events are not recorded, samples at reversals may be missing. If an input jumps, the sample before the jump may be missing.
     if is_walked(setting, c) && !setting.has_jumps() && setting.scenario.written.has_all_events() {
         let d = d.first().copied().unwrap_or(0.0);
         return refined(&samples, law, memory.clone(), (d, count));
@@ -50,13 +50,13 @@ pub fn contact_path(setting: &Setting, c: usize, series: &Series) -> Trail {
 
 /// Returns whether the tangential force of contact `c` between two samples follows from its law and the linearly interpolated u.
 ///
-/// This requires a law without time dependence, friction, and events at all reversals. Jumps are allowed, because they are sampled.
+/// This requires friction, a contact law without time dependence, and events at all reversals. Jumps are allowed, because they are sampled.
 pub fn is_walked(setting: &Setting, c: usize) -> bool {
     let rubs = setting.model.contact_natural(c).is_some_and(|natural| natural.force > 0.0);
     rubs && locates(setting) && setting.has_law_without_time(c)
 }
 
-/// Returns whether all reversals of a run are events and no input jumps.
+/// Returns whether all reversals of u in a run are events and no input jumps.
 fn knows_turns(setting: &Setting) -> bool {
     !setting.has_jumps() && locates(setting)
 }
@@ -120,7 +120,7 @@ fn refined(samples: &Trail, law: &Interface, mut memory: Memory, (d, count): (f6
     path
 }
 
-/// Inserts points between samples i-1 and i. Their number is proportional to the force change.
+/// Inserts points between samples i-1 and i. The number of points is proportional to the force change.
 fn between(samples: &Trail, i: usize, of: (&Interface, &Memory, f64, f64), path: &mut Trail) {
     let (law, memory, d, count) = of;
     let change = (samples.y[i] - samples.y[i - 1]).abs();

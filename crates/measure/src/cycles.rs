@@ -1,13 +1,13 @@
-//! Splits a long record into cycles.
+//! Splitting of a long record of displacement and force into cycles.
 
 use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, extent};
 use std::ops::Range;
 
 pub use stickslip_record::noise;
 
-/// Maximum distance between start and end of a closed cycle, relative to the range of u.
+/// Maximum difference of u between start and end of a closed cycle, relative to the range of u.
 pub const CLOSED: f64 = 0.01;
-/// Tried thresholds of a reversal, relative to the range of u. A larger one must increase the time covered by cycles by the factor `MORE`.
+/// Tried reversal thresholds, relative to the range of u. A larger threshold must increase the time covered by cycles by the factor `MORE`.
 const WAYS_BACK: [f64; 6] = [CLOSED, 0.02, 0.05, 0.1, 0.2, 0.4];
 const MORE: f64 = 1.05;
 /// Upper limit of the closing tolerance for noisy records, relative to the range of u.
@@ -16,12 +16,12 @@ const ALIKE: f64 = 0.1;
 /// Rule for the ends of cycles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cut {
-    /// From one reversal of u to the next one of the same kind. The parts before the first and after the last reversal are omitted.
+    /// Cycles between consecutive maxima (or minima) of u. The parts before the first and after the last cycle are omitted.
     Reversals {
-        /// Minimum displacement after a reversal that confirms it, m, above 0. Choose it above the noise and below the smallest stroke.
+        /// Displacement that confirms a reversal, m, above 0. The value should exceed the noise, but not the smallest stroke.
         least: f64,
     },
-    /// At t₀, t₀ + T, t₀ + 2T, …
+    /// Cycles of equal duration that start at t₀, t₀ + T, t₀ + 2T, …
     Period {
         /// Start t₀, s.
         start: f64,
@@ -33,7 +33,7 @@ pub enum Cut {
 /// Splits a record (t, u, q) into cycles and returns their index ranges.
 ///
 /// Each range includes both end samples, so neighbouring cycles share a sample. An incomplete cycle at the end is omitted. Without
-/// reversals the list is empty.
+/// reversals, no cycles are returned.
 ///
 /// # Errors
 /// The series differ in length, are not finite, have decreasing times, or are shorter than one period.
@@ -46,7 +46,7 @@ pub fn split_cycles(t: &[f64], u: &[f64], q: &[f64], cut: Cut) -> Result<Vec<Ran
     let places = match cut {
         Cut::Reversals { least } => {
             check_positive("least", least)?;
-            // Every second reversal is of the same kind.
+            // Reversals are alternately maxima and minima, so every second one is of the same kind.
             reversals(u, least).into_iter().step_by(2).collect()
         }
         Cut::Period { start, period } => period_starts(t, start, period)?,
@@ -56,8 +56,8 @@ pub fn split_cycles(t: &[f64], u: &[f64], q: &[f64], cut: Cut) -> Result<Vec<Ran
 
 /// Returns the closed cycles between reversals of the same kind, as index ranges that include both end samples.
 ///
-/// A cycle is closed if u returns, or if its range is at most `still` (m). Several reversal thresholds are tried, because noise and small
-/// inner loops cause additional reversals. The smallest threshold is used whose cycles cover the most time.
+/// A cycle is closed if u returns to its initial value, or if the range of u is at most `still` (m). Several reversal thresholds are tried,
+/// because noise and small inner loops cause additional reversals. A larger threshold is used only if its cycles cover more time.
 #[must_use]
 pub fn returning_cycles(t: &[f64], u: &[f64], still: f64) -> Vec<Range<usize>> {
     let (low, high) = extent(u);
@@ -74,7 +74,7 @@ pub fn returning_cycles(t: &[f64], u: &[f64], still: f64) -> Vec<Range<usize>> {
     best.1
 }
 
-/// Returns whether u returns within a fraction `share` of its range, or its range is at most `still`, m.
+/// Returns whether u returns to its initial value within a fraction `share` of its range, or whether this range is at most `still`, m.
 #[must_use]
 pub fn returns(u: &[f64], still: f64, share: f64) -> bool {
     let (low, high) = extent(u);
@@ -130,7 +130,7 @@ fn period_starts(t: &[f64], start: f64, period: f64) -> Result<Vec<usize>, Serie
         let before = after.saturating_sub(1);
         let place = if time - t[before] < t[after] - time { before } else { after };
         if places.last().is_some_and(|&p| p >= place) {
-            // There are fewer samples than periods.
+            // The record has fewer samples than periods.
             return Err(SeriesError::TooShort { series: "t", least: places.len() + 2, got: t.len() });
         }
         places.push(place);

@@ -1,7 +1,7 @@
 //! Detects rotation, rolling and falling of bodies beyond the validity of the model's kinematics.
 //!
-//! The model assumes small angles and contact points that are fixed on their bodies. Extremes over rows and events are kept for bodies that
-//! can rotate or lift off.
+//! The model assumes small angles and contact points that are fixed on their bodies. For bodies that can rotate or lift off, the extremes
+//! over all rows and events are kept.
 
 use crate::Setting;
 use crate::warning::Warning;
@@ -23,9 +23,9 @@ pub struct Excursions {
 /// A body that rotates.
 struct Turn {
     body: usize,
-    /// Channel index of its pitch.
+    /// Channel index of the pitch of the body.
     place: usize,
-    /// Largest angle, rad.
+    /// Largest magnitude of the pitch, rad.
     most: f64,
 }
 
@@ -34,13 +34,13 @@ struct Roll {
     contact: usize,
     /// Channel indices of `d_m` and `a_m`.
     places: [usize; 2],
-    /// Channel indices of the pitches of its bodies. `None` for a body that does not rotate.
+    /// Channel indices of the pitches of both bodies. `None` for a body that does not rotate.
     pitches: [Option<usize>; 2],
-    /// Smallest and largest angle between its bodies since they touched, rad.
+    /// Smallest and largest angle between both bodies since the contact closed, rad.
     range: [f64; 2],
-    /// Largest indentation since the touch, m, and the contact radius at this time, m.
+    /// Largest indentation since the contact closed, m, and contact radius at this time, m.
     deepest: [f64; 2],
-    /// Rolled distance during one touch, m, and contact radius, m, at the largest ratio of both.
+    /// Rolled distance between closing and opening of the contact, m, and contact radius, m, for the largest ratio of both.
     worst: [f64; 2],
 }
 
@@ -51,9 +51,9 @@ struct Fall {
     place: usize,
     down: f64,
     contacts: Vec<Catch>,
-    /// Height of the reference point above the contact points, or the largest contact radius if it is larger, m.
+    /// Height of the reference point of the body above the contact points, or the largest contact radius if it is larger, m.
     height: f64,
-    /// Largest distance below the position at which its contacts close, while all were open, m.
+    /// Largest distance of the body below the position at which its contacts close, while all contacts are open, m.
     farthest: f64,
 }
 
@@ -61,9 +61,9 @@ struct Fall {
 struct Catch {
     /// Channel indices of `d_m` and `a_m`.
     places: [usize; 2],
-    /// Channel index of z of the other body. `None` if this body does not move.
+    /// Channel index of z of the supporting body. `None` if the supporting body does not move.
     other: Option<usize>,
-    /// Height of the body relative to the other body when the contact closes, m.
+    /// Height of the body relative to the supporting body when the contact closes, m.
     level: f64,
 }
 
@@ -107,7 +107,7 @@ impl Excursions {
         self.falls.iter_mut().for_each(|fall| fall.row(at));
     }
 
-    /// Returns at most one warning of each kind, about the largest excess.
+    /// Returns at most one warning each about rotation, rolling and falling, for the body or contact with the largest excess.
     pub fn warnings(&self, setting: &Setting) -> impl Iterator<Item = Warning> {
         [self.angle(setting), self.rolling(setting), self.fall(setting)].into_iter().flatten()
     }
@@ -177,10 +177,10 @@ impl Roll {
         }
     }
 
-    /// Returns the largest rolled distance of one touch, m, and the contact radius, m.
+    /// Returns the largest rolled distance between closing and opening of the contact, m, and the contact radius, m.
     ///
-    /// The distance is the angle times a²/d, which is the radius of curvature of a ball. For edges and tips, the contact has left its point
-    /// when this distance equals a, too.
+    /// The distance is the angle times a²/d, the radius of curvature of a ball. For edges and tips, too, the contact has left its initial
+    /// point when this distance equals a.
     fn farthest(&self) -> [f64; 2] {
         let [d, a] = self.deepest;
         let now = [(self.range[1] - self.range[0]) * a * a / d, a];
@@ -189,9 +189,9 @@ impl Roll {
 }
 
 impl Fall {
-    /// Returns the fall detection of a body that gravity moves along a free z.
+    /// Creates the fall detection of a body that is free along z and on which gravity acts along z.
     ///
-    /// Returns `None` if a spring or an actuator holds the body. `contacts` are its contacts with their heights.
+    /// Returns `None` if a spring or an actuator holds the body. `contacts` are the contacts of the body and their heights.
     fn of(
         scene: &Scene,
         body: usize,

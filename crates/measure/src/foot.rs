@@ -1,9 +1,9 @@
-//! The foot: the body below the stepping body that the waveform of the scenario's `figures` moves.
+//! The foot: the body in contact with the stepping body that is moved by the waveform named in `figures`.
 
 use crate::Setting;
 use stickslip_drive::scene::{Direction, Freedom, Side, Varying};
 
-/// Drive of the foot.
+/// Type of drive of the foot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Foot {
     /// The x coordinate of the foot follows the waveform.
@@ -18,7 +18,7 @@ pub enum Foot {
 }
 
 impl Foot {
-    /// Returns the foot of the scenario's `figures`: a body in contact with the stepping body that the waveform moves.
+    /// Returns the drive of the foot: of the body in contact with the stepping body that is moved by the waveform named in `figures`.
     ///
     /// Returns `None` if there is no such body, or if two bodies are driven differently.
     pub fn of(setting: &Setting) -> Option<Self> {
@@ -47,7 +47,7 @@ impl Foot {
         has_driver.then(|| format!("{name}.voltage_V"))
     }
 
-    /// Returns the body whose motion must be recorded to determine the stroke.
+    /// Returns the index of the foot if its motion must be recorded, because a stack drives it.
     pub fn driven(self) -> Option<usize> {
         match self {
             Self::Follows => None,

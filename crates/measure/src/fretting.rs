@@ -6,10 +6,10 @@ use crate::series::{SeriesError, check, check_lengths, extent, mean, sum};
 pub const STIFFNESS_WINDOW: f64 = 0.1;
 /// Fraction of the displacement range after a reversal over which the tangent parabola is fitted.
 pub const TANGENT_WINDOW: f64 = 0.25;
-/// Hysteresis threshold for a sign change of Q, relative to the smaller of its two extremes.
+/// Hysteresis threshold for a sign change of the force Q, relative to the smaller of its two extremes.
 // With noise, Q crosses 0 several times on each branch. The threshold groups these crossings.
 pub const PASSED: f64 = 0.3;
-/// Opening, relative to δ\*, that counts as rounding.
+/// Opening, relative to δ\*, below which it counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// Results of one fretting cycle, computed from its loop (u, Q).
@@ -24,14 +24,14 @@ pub struct Cycle {
     pub force_amplitude: f64,
     /// Half opening δ₀ of the loop at Q = 0, m. `None` if Q does not change sign.
     ///
-    /// Several crossings of 0 on one branch, as with noise, are averaged ([`PASSED`]). With several branches, δ₀ is half the difference
-    /// between the means of the falling and the rising branches.
+    /// Several crossings of 0 on one branch, which noise causes, are averaged (see [`PASSED`]). With several branches, δ₀ is half the
+    /// difference between the means of the falling and the rising branches.
     pub half_opening: Option<f64>,
     /// Dissipated energy `E_d`, the loop area ∮Q du, J.
     pub dissipated: f64,
     /// Tangential stiffness after the maximum of u, N/m. `None` if u is constant.
     ///
-    /// It is the least-squares slope over the first tenth ([`STIFFNESS_WINDOW`]) of the displacement range.
+    /// The stiffness is the least-squares slope over the first tenth ([`STIFFNESS_WINDOW`]) of the displacement range.
     pub stiffness_after_maximum: Option<f64>,
     /// Tangential stiffness after the minimum of u, N/m, computed in the same way.
     pub stiffness_after_minimum: Option<f64>,
@@ -49,7 +49,7 @@ impl Cycle {
         check("u", u, 3)?;
         check("q", q, 3)?;
         let (u_range, q_range) = (extent(u), extent(q));
-        // Halved first, because the difference of two large numbers may overflow.
+        // The values are halved first, because the difference of two large numbers may overflow.
         let half = |(low, high): (f64, f64)| high / 2.0 - low / 2.0;
         Ok(Self {
             displacement_amplitude: half(u_range),
@@ -83,18 +83,18 @@ impl Cycle {
 
     /// Returns the energy coefficient of friction `μ_e` = `E_d/(4Pδ₀)` under a mean normal force P, N.
     ///
-    /// It equals Coulomb's μ for a rectangular loop. Returns `None` without an opening or a normal force.
+    /// For a rectangular loop, `μ_e` equals Coulomb's coefficient of friction. Returns `None` without an opening or a normal force.
     pub fn friction_coefficient(&self, normal_force: f64) -> Option<f64> {
         quotient(self.dissipated, 4.0 * normal_force * self.opening()?)
     }
 
-    /// Returns δ₀ if it exceeds rounding.
+    /// Returns the half opening δ₀ if it exceeds the rounding error.
     fn opening(&self) -> Option<f64> {
         self.half_opening.filter(|opening| opening.abs() > ROUNDING * self.displacement_amplitude)
     }
 }
 
-/// Returns a/b if it is finite.
+/// Returns the quotient a/b if it is finite.
 fn quotient(a: f64, b: f64) -> Option<f64> {
     Some(a / b).filter(|ratio| b != 0.0 && ratio.is_finite())
 }
@@ -158,14 +158,14 @@ fn half_opening(u: &[f64], q: &[f64]) -> Option<f64> {
 
 /// Returns the least-squares slope over the first tenth of the range after the reversal at `extreme`.
 ///
-/// The end point of this tenth is interpolated. Therefore coarse records have a slope, too.
+/// The end point of this tenth is interpolated, so that coarse records have a slope, too.
 fn stiffness_after(u: &[f64], q: &[f64], (low, high): (f64, f64), extreme: f64) -> Option<f64> {
     let n = u.len();
     let window = STIFFNESS_WINDOW * (high - low);
     if !(window > 0.0 && window.is_finite()) {
         return None;
     }
-    // If u dwells at the extreme, the last sample before the reversal is used.
+    // If u is constant at the extreme for some samples, the last of them is used.
     let start = (0..n).find(|&i| u[i] == extreme && u[(i + 1) % n] != extreme)?;
     let mut points = vec![(u[start], q[start])];
     for k in 1..n {

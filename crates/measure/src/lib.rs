@@ -1,9 +1,9 @@
 //! Evaluation of runs and of measured records: steps, settling, fretting loops, energies, plausibility.
 //!
-//! Every quantity is defined at its field. Modules for plain series, simulated or measured:
+//! Every quantity is defined in the comment of its field. Modules for plain series, simulated or measured:
 //!
 //! * [`series`] – requirements on a series, and the errors;
-//! * [`cycles`] – splits a long record into cycles;
+//! * [`cycles`] – splitting of a long record into cycles;
 //! * [`fretting`] – results of one cycle: amplitudes, loop area, ratios, stiffness;
 //! * [`regime`] – slip regime of a cycle and its thresholds;
 //! * [`mod@steady_loop`] – mean loop of many noisy cycles, with confidence intervals;

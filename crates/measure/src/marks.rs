@@ -1,4 +1,4 @@
-//! Sampling times of the evaluation: period ends, and further times within periods.
+//! Times at which the evaluations of a run need samples: period ends, and further times within periods.
 
 use crate::Setting;
 use crate::account::Phases;
@@ -11,31 +11,31 @@ use stickslip_drive::scene::{Direction, Freedom, Normal, Side, Varying};
 
 /// Number of samples per period for contacts whose force does not follow from the path of u alone.
 ///
-/// The extremes and kinks of their loops are not events.
+/// The extremes and kinks of the loops of these contacts are not events.
 const PARTS: f64 = 512.0;
-/// Number of samples per period of a load with a shorter period. Extremes of a sine are then found to 3e-8.
+/// Number of samples per period of a normal load with a shorter period. The relative error of the extremes of a sine is then 3e-8.
 const LOAD_PARTS: f64 = 64.0;
-/// Number of samples per period of a ringing of the contact's bodies.
+/// Number of samples per period of the natural oscillation (ringing) of the bodies of a contact.
 const RING_PARTS: f64 = 24.0;
-/// Number of samples over the full range of a waveform. It applies to pieces that are fast compared with the sampling within the period.
+/// Number of samples over the full range of a waveform, in pieces that are fast compared with the other samples of the period.
 const WAY_PARTS: f64 = 128.0;
-/// Maximum number of such samples per period. A waveform with more, such as a noise table, gets none.
+/// Maximum number of samples in fast pieces per period. A waveform that needs more, such as a noise table, gets no such samples.
 const MOST_WAY_PARTS: usize = 4096;
-/// Maximum number of samples per period, limited by the memory for one cycle.
+/// Maximum number of samples per period. The limit bounds the memory for one cycle.
 const MOST_PARTS: f64 = 65_536.0;
-/// Number of samples of a whole table.
+/// Number of samples over the duration of a table.
 const TABLE_PARTS: f64 = 4096.0;
-/// Time difference below which a time is a period end, in periods.
+/// Distance of a time from a period end, in periods, below which both count as equal.
 const SAME: f64 = 1e-9;
 
 /// Iterator over the sampling times of a run.
 pub struct Marks {
     grids: Vec<Grid>,
-    /// Number of grids, from the first, that are used by evaluations other than the period account.
+    /// Number of grids, from the first, with samples for all evaluations. Other grids are only for the evaluation of drive periods.
     common: usize,
-    /// Body whose displacement in each period is evaluated.
+    /// Stepping body, whose displacement in each period is evaluated.
     pub body: Option<usize>,
-    /// Foot below it, moved by a stack, whose displacement is evaluated, too.
+    /// Foot that a stack moves below the stepping body. The displacement of the foot is evaluated, too.
     pub foot: Option<usize>,
     /// Periods of the waveform in `figures`.
     figures: Option<Periods>,
@@ -47,7 +47,7 @@ pub struct Marks {
 struct Grid {
     start: f64,
     interval: f64,
-    /// Index of the next time, and of the last one.
+    /// Index of the next sampling time, and index of the last sampling time.
     next: f64,
     last: f64,
 }
@@ -57,7 +57,7 @@ impl Marks {
     pub fn of(setting: &Setting) -> Self {
         let (scene, figures, end) =
             (&setting.scenario.scene, setting.scenario.figures, setting.scenario.plan.duration);
-        // The times do not depend on the planned end, so a continued run has the same ones.
+        // The sampling times do not depend on the planned end of the run, so that a resumed run has the same sampling times.
         let for_ever = f64::INFINITY;
         let is_free =
             |body: &usize| scene.bodies.get(*body).is_some_and(|b| b.part.x.freedom == Freedom::Free);
@@ -100,7 +100,7 @@ impl Marks {
         Self { grids, common, body, foot, figures, end }
     }
 
-    /// Returns whether a sampling time is used by evaluations other than the period account.
+    /// Returns whether a sample at this time is for all evaluations, not only for the evaluation of drive periods.
     pub fn is_common(&self, t: f64) -> bool {
         self.common == self.grids.len() || self.grids.iter().take(self.common).any(|grid| grid.has(t))
     }
@@ -109,13 +109,13 @@ impl Marks {
     pub fn take_next(&mut self) -> Option<f64> {
         let next = self.grids.iter().filter_map(Grid::due).fold(f64::INFINITY, f64::min);
         for grid in &mut self.grids {
-            // Times that differ by rounding count as one.
+            // Times that differ by rounding errors only count as one time.
             let same = if grid.interval.is_finite() { SAME * grid.interval } else { 0.0 };
             while grid.due().is_some_and(|due| due <= next + same) {
                 grid.next += 1.0;
             }
         }
-        // Period ends and the end of the run may differ by rounding.
+        // A period end may differ from the end of the run by a rounding error.
         let end = self.end;
         (next < f64::INFINITY).then_some(if next > end && next < end * (1.0 + SAME) { end } else { next })
     }
@@ -137,8 +137,8 @@ impl Marks {
 
 /// Returns whether a contact is sampled several times per period or per table.
 ///
-/// This is so if its force does not follow from the path of u alone, except for contacts on which the stepping body slides. Contacts
-/// between two free bodies are sampled, because the bodies may step together.
+/// Contacts are sampled if their force depends on more than the path of u, except contacts on which the stepping body slides. Contacts
+/// between two free bodies are sampled, too, because the bodies may step together.
 pub fn are_dense(setting: &Setting, c: usize) -> bool {
     if is_walked(setting, c) {
         return false;
@@ -150,7 +150,7 @@ pub fn are_dense(setting: &Setting, c: usize) -> bool {
     let tells_turns = setting.model.effective(setting.scenario.plan.stepper).locates_events();
     let steps = setting.scenario.figures.body.filter(is_free).zip(sides).is_some_and(|(body, sides)| {
         let frees = |side: &Side| matches!(side, Side::Body(other) if *other != body && is_free(other));
-        // A contact with the ground has loops. Fixed time steps report no reversals of it.
+        // A contact with the ground has loops. With fixed time steps, its reversals are not events.
         let is_untold = sides.contains(&Side::Ground) && !tells_turns;
         sides.contains(&Side::Body(body)) && !sides.iter().any(frees) && !is_untold && !is_held(setting, body)
     });
@@ -188,7 +188,7 @@ fn load_of(setting: &Setting, c: usize) -> Option<&Waveform> {
     }
 }
 
-/// Returns the number of samples per period of a contact, where its load may have a shorter period.
+/// Returns the number of samples per period of a contact. More samples are needed if its normal load has a shorter period.
 fn parts_of(periods: &Periods, load: Option<&Waveform>) -> f64 {
     let loads = load.and_then(Waveform::period).map_or(0.0, |period| periods.length / period);
     (LOAD_PARTS * loads).ceil().clamp(PARTS, MOST_PARTS)
@@ -201,7 +201,7 @@ fn of_ringing(setting: &Setting, c: usize, periods: &Periods) -> f64 {
     (RING_PARTS * periods.length * frequency / std::f64::consts::TAU).ceil().min(MOST_PARTS)
 }
 
-/// Returns the turning points of a load. The friction limit and the force of a sliding contact have extremes there.
+/// Returns the turning points of a normal load, at which the friction limit and the force of a sliding contact have extremes.
 fn peaks_of_load(load: &Waveform) -> Vec<Grid> {
     let Some(periods) = Periods::until(load, f64::INFINITY) else { return Vec::new() };
     let Some(phases) = Phases::of(load).filter(|_| !load.is_straight()) else { return Vec::new() };
@@ -221,7 +221,7 @@ fn jumps_of(waveform: &Waveform) -> Vec<Grid> {
     jumps.map(|piece| Grid { start: piece.end, ..Grid::of(&periods, 1.0) }).take(MOST_WAY_PARTS).collect()
 }
 
-/// Returns sampling times within fast pieces of a waveform. `part` is the sampling interval otherwise, s.
+/// Returns sampling times within fast pieces of a waveform. `part` is the sampling interval in other pieces, s.
 fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
     let Some(periods) = Periods::until(waveform, f64::INFINITY) else { return Vec::new() };
     if waveform.generator().is_some() || waveform.interpolation().is_some() {
@@ -247,7 +247,7 @@ fn fast_pieces(waveform: &Waveform, part: f64) -> Vec<Grid> {
 
 /// Returns the turning points of the waveform in `figures` that are not events.
 ///
-/// These are turning points without a corner, and all turning points with fixed time steps.
+/// Turning points without a corner are not events. With fixed time steps, no turning point is an event.
 fn turns(setting: &Setting, periods: &Periods) -> Vec<Grid> {
     let waveform = setting.scenario.figures.waveform.and_then(|w| setting.scenario.scene.waveforms.get(w));
     let tells_corners = setting.model.effective(setting.scenario.plan.stepper).locates_events();
@@ -265,7 +265,7 @@ impl Grid {
 
     /// Returns the sampling times for a non-periodic waveform: the start and the end of the run, and times along the waveform.
     ///
-    /// The latter are needed only if the contact law cannot be evaluated between events.
+    /// Times along the waveform are needed only if the contact law cannot be evaluated between events.
     fn along(waveform: &Waveform, is_walked: bool, end: f64) -> Vec<Self> {
         let once = |start: f64| Self { start, interval: f64::INFINITY, next: 0.0, last: 0.0 };
         let (from, to) = waveform.window();
@@ -279,7 +279,7 @@ impl Grid {
         (self.next <= self.last).then_some(self.start + way)
     }
 
-    /// Returns whether time t is in the grid.
+    /// Returns whether time t, s, is a sampling time of the grid.
     fn has(&self, t: f64) -> bool {
         if self.interval == f64::INFINITY {
             return t == self.start;

@@ -1,7 +1,7 @@
 //! Mean of a stationary sequence with correlated values, and its confidence interval by the method of batch means.
 //!
-//! The means of long batches are nearly independent. Their scatter gives the error of the total mean. Ten batches suffice (Schmeiser,
-//! *Oper. Res.* 30 (1982) 556).
+//! The means of long batches are nearly independent. The scatter of the batch means gives the error of the total mean. Ten batches suffice
+//! (Schmeiser, *Oper. Res.* 30 (1982) 556).
 
 use crate::sequence::{Sequence, mean_of};
 
@@ -16,19 +16,19 @@ const STUDENT: [f64; BATCHES - FEWEST + 1] = [4.303, 3.182, 2.776, 2.571, 2.447,
 /// Maximum ratio of successive changes of the mean for which a limit is extrapolated.
 const FORESEEN: f64 = 0.9;
 
-/// Mean of a sequence.
+/// Mean of a stationary sequence with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mean {
-    /// Mean of the last whole batches.
+    /// Mean of the values in all batches.
     pub value: f64,
-    /// Half-width of the 95 % confidence interval: t s/√b for b batches whose means have the standard deviation s.
+    /// Half-width of the 95 % confidence interval: t s/√b with Student's t, for b batches whose means have the standard deviation s.
     pub error: f64,
 }
 
 impl Mean {
-    /// Computes the mean of a sequence that oscillates with a period, in values, or has no period (0).
+    /// Computes the mean of a sequence. If the sequence oscillates, `period` is the oscillation period in values, otherwise 0.
     ///
-    /// Batches contain equal numbers of whole oscillations. There are at most ten. Returns `None` for fewer than three.
+    /// Batches contain equal numbers of whole oscillations. There are at most ten batches. Returns `None` for fewer than three.
     pub fn of<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<Self> {
         let (means, start) = batches(values, period)?;
         let value = mean_of(values, start..values.count());
@@ -37,13 +37,13 @@ impl Mean {
 
     /// Returns the shift of the mean between the first and the last half of the batches, if it is significant.
     ///
-    /// It is significant if it exceeds twice the smaller error of both halves. Returns `None` for fewer than six batches.
+    /// A shift is significant if it exceeds twice the smaller of the errors of both halves. Returns `None` for fewer than six batches.
     pub fn moved<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<Moved> {
         let (means, _) = batches(values, period)?;
         let of = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
         let (first, last) = means.split_at(means.len() / 2);
         let [a, b] = [first, last].map(of);
-        // A half in which the mean moves has a large error.
+        // The smaller error is used, because a half in which the mean still changes has a large error.
         let known = error(first, a)?.min(error(last, b)?);
         let third = means.len() / 3;
         let [to, middle, from] =
@@ -57,12 +57,12 @@ impl Mean {
     }
 }
 
-/// A mean that has not converged.
+/// Shift of a mean that has not converged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moved {
-    /// Difference between the means of the two halves.
+    /// Difference between the means of the last and the first half of the batches.
     pub by: f64,
-    /// Distance from the total mean to the extrapolated limit. Infinite if the changes from third to third do not decrease.
+    /// Distance from the total mean to its extrapolated limit. Infinite if the changes between the thirds of the batches do not decrease.
     pub to_go: f64,
 }
 
@@ -75,7 +75,7 @@ fn batches<S: Sequence + ?Sized>(values: &S, period: f64) -> Option<(Vec<f64>, u
     if batches < FEWEST {
         return None;
     }
-    // Batch boundaries are rounded, batch lengths are not, so no rounding error accumulates.
+    // Batch boundaries are rounded to whole values, but batch lengths are not, so that no rounding error accumulates.
     let length = (units / batches as f64).floor() * unit;
     let start = |batch: usize| count - ((batches - batch) as f64 * length).round() as usize;
     Some(((0..batches).map(|b| mean_of(values, start(b)..start(b + 1))).collect(), start(0)))

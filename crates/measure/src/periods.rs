@@ -4,7 +4,7 @@ use crate::Setting;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Direction, Freedom, Scene, Side, Varying};
 
-/// Time difference below which a time is a period end, in periods.
+/// Distance of a time from a period end, in periods, below which both count as equal.
 const SAME: f64 = 1e-9;
 
 /// The whole periods of a waveform within a run.
@@ -19,22 +19,22 @@ pub struct Periods {
 }
 
 impl Periods {
-    /// Returns the periods of a waveform until the time `end`, s. Returns `None` without a period, or before the first one is complete.
+    /// Returns the whole periods of a waveform until the time `end`, s. Returns `None` if there is no period or none is complete.
     pub fn until(waveform: &Waveform, end: f64) -> Option<Self> {
         let (length, timing) = (waveform.period()?, waveform.timing());
         let cycles = timing.cycles.unwrap_or(f64::INFINITY);
-        // A repeated table may start before the run. Its first period that starts within the run counts.
+        // A repeated table may start before the run. Its first period is then the first one that starts within the run.
         let before = (-timing.delay / length - SAME).ceil().max(0.0);
         let start = if before > 0.0 { timing.delay + before * length } else { timing.delay };
         let count = ((end - start) / length).min(cycles - before) + SAME;
-        // This exceeds the number of periods of any run.
+        // The bound exceeds the number of periods of any run.
         let count = count.floor().min(1e9);
         (count >= 1.0).then_some(Self { start, length, count: count as usize })
     }
 
     /// Returns the periods of the excitation of contact `c` until the time `end`, s.
     ///
-    /// The excitation is the one waveform that its bodies follow. Otherwise it is the waveform in the scenario's `figures`.
+    /// The excitation is the only waveform that the bodies of the contact follow, or else the waveform named in `figures`.
     pub fn of_contact(setting: &Setting, c: usize, end: f64) -> Option<Self> {
         let mut followed = followed(setting, c);
         let waveform = match (followed.next(), followed.next()) {
@@ -44,7 +44,7 @@ impl Periods {
         Self::until(&setting.scenario.scene.waveforms.get(waveform)?.part, end)
     }
 
-    /// Returns the end of period k, which is the start of the next one, s. For k = 0 it is the start of the first period.
+    /// Returns the end of period k, s, which is the start of period k + 1. The periods are numbered from 1.
     pub fn end_of(&self, k: usize) -> f64 {
         self.start + k as f64 * self.length
     }
@@ -59,14 +59,14 @@ impl Periods {
         (self.end_of(self.count - 1), self.end_of(self.count))
     }
 
-    /// Returns the time tolerance for the end of period k, s.
+    /// Returns the tolerance of times that count as the end of period k, s.
     fn hair(&self, k: usize) -> f64 {
         // After many periods, the rounding of t is larger.
         (SAME * self.length).max(4.0 * f64::EPSILON * self.end_of(k).abs())
     }
 }
 
-/// Detects period ends in a sequence of ascending times. The first time within the tolerance counts.
+/// Detects period ends in a sequence of ascending times. Of several times within the tolerance, the first counts as the period end.
 #[derive(Debug, Clone, Copy)]
 pub struct Tracker {
     periods: Periods,
@@ -81,9 +81,9 @@ impl Tracker {
         Self { periods, next: 0, is_over: false }
     }
 
-    /// Returns the number of the period that ends at time t, s; 0 for the start of the first period. Times must be ascending.
+    /// Returns the number of the period that ends at time t, s, or 0 at the start of the first period. Times must ascend.
     ///
-    /// If a period end is missing, no further ones are reported.
+    /// If the sequence of times skips a period end, no further period ends are reported.
     pub fn pass(&mut self, t: f64) -> Option<usize> {
         if self.is_over {
             return None;
@@ -106,7 +106,7 @@ impl Tracker {
 
 /// Returns the indices of the waveforms that the bodies of contact `c` follow along x.
 ///
-/// For a massless body, these are the waveforms of its loads and stacks. Springs to other massless bodies are followed.
+/// A massless body follows the waveforms of its loads and stacks, and those of massless bodies to which springs connect it.
 pub fn followed(setting: &Setting, c: usize) -> impl Iterator<Item = usize> + use<> {
     let scene = &setting.scenario.scene;
     let mut bodies: Vec<usize> =
@@ -135,7 +135,7 @@ fn pulls(scene: &Scene, body: usize, (bodies, followed): (&mut Vec<usize>, &mut 
     };
     let stacks = scene.actuators.iter().filter(|it| is_here(it.part.between, it.part.direction));
     for waveform in loads.chain(stacks.clone().filter_map(|it| varying(it.part.stroke))) {
-        // A waveform with several effects counts once.
+        // A waveform that acts in several ways is listed once.
         if !followed.contains(&waveform) {
             followed.push(waveform);
         }
@@ -149,7 +149,7 @@ fn pulls(scene: &Scene, body: usize, (bodies, followed): (&mut Vec<usize>, &mut 
     }
 }
 
-/// Returns the bodies among two sides of a connection.
+/// Returns the bodies at both ends of a connection; the ground is no body.
 fn sides(between: [Side; 2]) -> impl Iterator<Item = usize> {
     between.into_iter().filter_map(|side| match side {
         Side::Body(body) => Some(body),

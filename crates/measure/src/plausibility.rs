@@ -1,8 +1,8 @@
-//! Warnings about implausible scenarios, with the implausible number and the reason. They never reject a scenario.
+//! Warnings about implausible scenarios, with the implausible number and the reason. A warning never rejects a scenario.
 //!
-//! The scenario's own warnings concern the file alone. These warnings concern pressures, forces and frequencies that follow from it. In
-//! reading order: `contacts` (materials, pressures, geometry), `forces` (loads, stacks, masses), `motion` (strokes, resonances,
-//! tolerances), `drivers` (their computing time).
+//! Warnings of the crate `scenario` concern single values of the file. Warnings of this module concern pressures, forces and frequencies
+//! that follow from these values. In reading order: `contacts` (materials, pressures, geometry), `forces` (loads, stacks, masses), `motion`
+//! (strokes, resonances, tolerances), `drivers` (their computing time).
 
 mod contacts;
 mod drivers;
@@ -20,10 +20,10 @@ use stickslip_scenario::Warning;
 
 /// Maximum number of warnings shown.
 const MOST: usize = 20;
-/// Maximum number of contacts for expensive checks.
+/// Maximum number of contacts for which expensive checks are made.
 const ASKED: usize = 256;
 
-/// Returns all warnings about a setting.
+/// Returns all plausibility warnings about a setting.
 pub fn of(setting: &Setting) -> Vec<Warning> {
     let mut odd = Implausible { setting, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.materials();
@@ -51,7 +51,7 @@ pub fn of(setting: &Setting) -> Vec<Warning> {
     found
 }
 
-/// Returns the warnings about unbounded errors if a setting is simulated in frames. The integrator of the scenario is ignored.
+/// Returns warnings if the error is unbounded when `stepper`, instead of the integrator of the scenario, simulates a setting in frames.
 pub fn of_frames(setting: &Setting, stepper: Stepper) -> Vec<Warning> {
     let mut odd = Implausible { setting, found: Vec::new(), left_out: 0, misnamed: Vec::new() };
     odd.frames(stepper);
@@ -79,27 +79,27 @@ impl Implausible<'_> {
 
     /// Returns an indentation of contact `c` that certainly occurs, m.
     ///
-    /// It is the largest prescribed one. If bodies press the contact, it is the initial one.
+    /// If bodies press the contact, the result is the initial indentation, otherwise the largest prescribed indentation.
     fn depth(&self, c: usize) -> f64 {
         let depths = self.setting.model.indentations(&self.setting.start, c);
         depths.map_or(0.0, |d| if self.setting.is_coupled(c) { d.start } else { d.most })
     }
 
-    /// Returns whether a side is free along x or z.
+    /// Returns whether a side of a contact is a body that is free along x or z.
     fn is_free(&self, side: Side) -> bool {
         let Side::Body(body) = side else { return false };
         let body = self.setting.scenario.scene.bodies.get(body);
         body.is_some_and(|body| [body.part.x, body.part.z].iter().any(|c| c.freedom == Freedom::Free))
     }
 
-    /// Returns the mass of a side that is free along x or z, kg.
+    /// Returns the mass of the body on a side of a contact, kg, if it is free along x or z.
     fn free_mass(&self, side: Side) -> Option<f64> {
         let Side::Body(body) = side else { return None };
         self.setting.scenario.scene.bodies.get(body).filter(|_| self.is_free(side))?.part.mass
     }
 }
 
-/// Returns a number with its unit, with four digits.
+/// Returns a number with four digits and its unit.
 fn told(value: f64, unit: &str) -> String {
     quantity(Real(value), unit)
 }

@@ -6,12 +6,12 @@ use crate::series::{SeriesError, check_positive};
 /// Values of the ratios A, B and D at the onset of gross slip.
 ///
 /// For a profile f ~ rⁿ on a rigid rig, A = 1/(2n+1), D = 2^{1/(n+1)} - 1 and B = A/D. A sphere (n = 2) has 0.2, 0.2599 and 0.7695. A
-/// compliance C in series increases δ\* only. It divides A and D by 1 + `C/(u_c/μF_N)` and leaves B unchanged.
+/// compliance C in series increases only δ\*: A and D are divided by 1 + `C/(u_c/μF_N)`, and B is unchanged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Thresholds {
     /// Threshold of A = `E_d/E_t`. `None` if the compliance of the rig is unknown.
     pub energy_ratio: Option<f64>,
-    /// Threshold of B = `E_d/(4Q*δ₀)`. `None` for a flat punch, which has no loop at the onset.
+    /// Threshold of B = `E_d/(4Q*δ₀)`. `None` for a flat punch, which has no loop at the onset of gross slip.
     pub system_free_ratio: Option<f64>,
     /// Threshold of D = δ₀/δ\*. `None` if the compliance of the rig is unknown.
     pub slip_ratio: Option<f64>,
@@ -20,11 +20,11 @@ pub struct Thresholds {
 /// Slip regime of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Regime {
-    /// Full stick: the loss is below the resolution, or the contact does not move.
+    /// Full stick: the energy loss is below the resolution, or the contact does not move.
     Stick,
     /// Partial slip: the rim slips, the centre sticks.
     Partial,
-    /// The criteria disagree, as at the onset of gross slip, or the cycles have different regimes.
+    /// Mixed regime: the criteria disagree, as at the onset of gross slip, or the cycles have different regimes.
     Mixed,
     /// Gross slip: the whole contact slips in every cycle.
     Gross,
@@ -46,8 +46,8 @@ impl Regime {
 impl Thresholds {
     /// Energy ratio A below which a loop counts as full stick.
     ///
-    /// It is above the noise of a good rig and the error of a simulation. It is below the loop of a sphere at 1 % of its gross slip
-    /// amplitude.
+    /// The value exceeds the noise of a good rig and the error of a simulation. A sphere at 1 % of the amplitude at gross slip has a larger
+    /// ratio A.
     pub const RESOLUTION: f64 = 5e-4;
 
     /// Returns the thresholds for the profile exponent n (f ~ rⁿ, above 0; infinite for a flat punch) on a rigid rig.
@@ -78,7 +78,7 @@ impl Thresholds {
         })
     }
 
-    /// Returns the thresholds for a rig of unknown compliance. Only B has one.
+    /// Returns the thresholds for a rig of unknown compliance: only the ratio B has a threshold.
     ///
     /// # Errors
     /// The exponent is not above 0.
@@ -87,9 +87,9 @@ impl Thresholds {
         Ok(Self { energy_ratio: None, system_free_ratio: ratio(energy, slip), slip_ratio: None })
     }
 
-    /// Returns the regime of one cycle: gross if all ratios reach their thresholds, partial if none does, and mixed otherwise.
+    /// Returns the regime of a cycle: gross if all ratios reach their thresholds, partial if no ratio does, and mixed otherwise.
     ///
-    /// The regime is stick if A is below [`Self::RESOLUTION`], and for loops of the wrong sign.
+    /// The regime is stick if A is below [`Self::RESOLUTION`], also for loops with negative `E_d`.
     pub fn regime(&self, cycle: &Cycle) -> Regime {
         if cycle.energy_ratio().is_none_or(|a| a < Self::RESOLUTION) {
             return Regime::Stick;
@@ -110,7 +110,7 @@ impl Thresholds {
         }
     }
 
-    /// Returns the common regime of all cycles, or mixed if they differ. Cycles in full stick are ignored unless there are no others.
+    /// Returns the common regime of all cycles, or mixed if they differ. Cycles in full stick count only if there are no others.
     ///
     /// Returns `None` without cycles.
     pub fn regime_of_run(&self, cycles: &[Cycle]) -> Option<Regime> {

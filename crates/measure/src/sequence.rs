@@ -22,13 +22,13 @@ impl<T: AsRef<[f64]> + ?Sized> Sequence for T {
     }
 }
 
-/// Returns the arithmetic mean of an index range; NaN if it is empty.
+/// Returns the arithmetic mean of the values in an index range, or NaN for an empty range.
 pub(crate) fn mean_of(values: &(impl Sequence + ?Sized), range: Range<usize>) -> f64 {
     let count = range.len();
     sum(values.part(range)) / count as f64
 }
 
-/// Returns half the difference between the maximum and the minimum of an index range.
+/// Returns half the difference between the maximum and the minimum of the values in an index range.
 pub(crate) fn half_range(values: &(impl Sequence + ?Sized), range: Range<usize>) -> f64 {
     let extent = |(low, high): (f64, f64), v: f64| (low.min(v), high.max(v));
     let (low, high) = values.part(range).fold((f64::INFINITY, f64::NEG_INFINITY), extent);

@@ -20,7 +20,7 @@ pub enum SeriesError {
     Lengths {
         /// Name of the series.
         series: &'static str,
-        /// Number of its samples.
+        /// Number of samples of this series.
         got: usize,
         /// Name of the other series.
         other: &'static str,
@@ -37,7 +37,7 @@ pub enum SeriesError {
         /// Value of the sample.
         value: f64,
     },
-    /// Times decrease. Equal times are allowed: at a jump there are two rows with the same time.
+    /// Times decrease. Equal times are no error, because a jump has two rows with the same time.
     #[error("t[{index}] = {after} s follows {before} s, expected times in ascending order")]
     TimeDecreases {
         /// Index of the later sample.
@@ -106,13 +106,13 @@ pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), Serie
     Err(SeriesError::Parameter { name, range: "above 0", value })
 }
 
-/// Returns the minimum and the maximum; (∞, -∞) for an empty slice.
+/// Returns the minimum and the maximum of values, or (∞, -∞) for an empty slice.
 #[must_use]
 pub fn extent(values: &[f64]) -> (f64, f64) {
     values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &v| (lo.min(v), hi.max(v)))
 }
 
-/// Returns the sum by Neumaier's compensated summation. Its error does not grow with the number of terms.
+/// Returns the sum by Neumaier's compensated summation. The rounding error does not grow with the number of terms.
 pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     let (mut total, mut lost) = (0.0_f64, 0.0_f64);
     for term in terms {
@@ -123,7 +123,7 @@ pub(crate) fn sum(terms: impl Iterator<Item = f64>) -> f64 {
     total + lost
 }
 
-/// Returns the arithmetic mean; NaN for an empty slice.
+/// Returns the arithmetic mean of values, or NaN for an empty slice.
 pub(crate) fn mean(values: &[f64]) -> f64 {
     sum(values.iter().copied()) / values.len() as f64
 }

@@ -6,7 +6,7 @@ use stickslip_drive::scene::{Freedom, Normal, Side};
 use stickslip_drive::{Accuracy, Model, State, Stepper};
 use stickslip_scenario::{Scenario, Warning};
 
-/// A scenario, its model and its initial state. All evaluations and checks refer to it.
+/// A scenario, its model and its initial state. All evaluations and checks use these data.
 pub struct Setting {
     /// Scenario.
     pub scenario: Scenario,
@@ -22,7 +22,7 @@ impl Setting {
         self.scenario.scene.contacts.get(c).map_or(1, |contact| contact.part.count)
     }
 
-    /// Returns the arguments for the computation of `facts` (properties known before a run).
+    /// Returns the arguments with which `facts` (properties known before a run) are computed.
     pub fn setup(&self) -> Setup<'_> {
         Setup { scene: &self.scenario.scene, model: &self.model, start: &self.start }
     }
@@ -47,9 +47,9 @@ impl Setting {
         self.scenario.scene.waveforms.iter().any(|waveform| waveform.part.has_jumps())
     }
 
-    /// Returns whether no other part than contact `c` dissipates energy, except by friction.
+    /// Returns whether all dissipation in the model is friction or damping of contact `c`.
     ///
-    /// There must be no other damped contact, no damper and no block.
+    /// If so, the model has no other damped contact, no damper and no block.
     pub fn loses_nothing_beside(&self, c: usize) -> bool {
         let scene = &self.scenario.scene;
         let mut others = (0..scene.contacts.len()).filter(|other| *other != c);
@@ -74,7 +74,7 @@ impl Setting {
             && scene.contacts.get(c).is_some_and(|contact| contact.part.between.iter().any(is_free))
     }
 
-    /// Returns the gross slip displacement u_c, m, and the normal force, N, of one contact of `c` at t = 0.
+    /// Returns the gross slip displacement u_c, m, and the normal force, N, of one of the identical contacts `c` at t = 0.
     pub fn contact_scale(&self, c: usize) -> (f64, f64) {
         let contact = self.model.contacts().zip(self.start.memories()).nth(c);
         contact.map_or((0.0, 0.0), |((_, law), memory)| {
@@ -83,14 +83,14 @@ impl Setting {
         })
     }
 
-    /// Returns all warnings about the scenario: those about the file and those about the model.
+    /// Returns all warnings about the values in the scenario file and about the plausibility of the model.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = self.scenario.warnings.clone();
         warnings.extend(plausibility::of(self));
         warnings
     }
 
-    /// Returns the warnings about unbounded errors if this integrator simulates the scenario in frames.
+    /// Returns warnings if the error is unbounded when `stepper` simulates the scenario in frames.
     pub fn warnings_of_frames(&self, stepper: Stepper) -> Vec<Warning> {
         plausibility::of_frames(self, stepper)
     }
@@ -101,7 +101,7 @@ impl Setting {
         match stepper.accuracy() {
             Accuracy::Tolerance(tolerance) => (stepper.name(), "tolerance", tolerance),
             Accuracy::Step(step) => (stepper.name(), "step_s", step),
-            // The longest time step.
+            // With `frames`, the accuracy is described by the longest time step.
             Accuracy::Frame { length, error } => {
                 (stepper.name(), "step_s", length / self.model.substeps(length, error))
             }

@@ -1,9 +1,9 @@
 //! Convergence of a sequence and extrapolation of its limit, by Prony's method.
 //!
-//! The step lengths of a periodically driven system are iterates of a map. Near a fixed point, their differences e obey a linear
-//! recurrence, eₖ = a₁eₖ₋₁ + … + aₚeₖ₋ₚ. Its roots λ determine the behaviour: the largest |λ| is the decay or growth factor per period, and
-//! its angle gives the oscillation period. The sum of all future differences gives the limit. The coefficients are fitted by least squares
-//! to the last half of the sequence. The lowest order without a residual is used.
+//! The step lengths of a periodically driven system are iterates of a map. Near a fixed point, differences e of consecutive values obey a
+//! linear recurrence, eₖ = a₁eₖ₋₁ + … + aₚeₖ₋ₚ. Its roots λ determine the behaviour: the largest |λ| is the decay or growth factor per
+//! period, and its angle gives the oscillation period. The sum of all future differences gives the limit. The coefficients are fitted by
+//! least squares to the last half of the sequence. The lowest order with a negligible residual is used.
 //!
 //! Source: de Prony, *J. École Polytechnique* 1 (1795) 24. Order 1 is Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289.
 
@@ -17,16 +17,16 @@ use std::f64::consts::TAU;
 pub const BAND: f64 = 1e-3;
 /// Largest relative residual of a recurrence that counts as a fit.
 const PATTERN: f64 = 0.2;
-/// Relative deviations below this one are rounding.
+/// Relative deviations below this value count as rounding errors.
 const ROUNDING: f64 = 1e-9;
-/// Half ranges of the last half below this fraction are not searched for a recurrence.
+/// If the relative half range of the last half of the values is below this value, no recurrence is fitted.
 const FAINT: f64 = 1e-6;
 /// Fraction of the remaining change that is added to the error of an extrapolated limit.
 // Determined by 22 extrapolated limits of random drives.
 const UNFORESEEN: f64 = 0.3;
 /// Minimum number of values of a settled sequence.
 const FEWEST: usize = 4;
-/// Minimum number of values for calling a sequence irregular. A shorter sequence may still be in its transient.
+/// Minimum number of values for calling a sequence irregular. A shorter sequence may still be in its initial transient.
 const FEW: usize = 12;
 
 /// Behaviour of a sequence.
@@ -34,23 +34,23 @@ const FEW: usize = 12;
 pub enum Settling {
     /// The sequence has settled.
     Settled(Settled),
-    /// The sequence approaches a limit, or there are too few values.
+    /// The sequence approaches a limit but has not settled, or there are too few values.
     NotSettled {
-        /// Last difference of two values. `None` for a single value.
+        /// Difference between the last two values. `None` for a single value.
         change: Option<f64>,
-        /// Extrapolated limit and its error: the difference of two fits plus 30 % of the remaining change.
+        /// Extrapolated limit and its error, which is the difference of two fits plus 30 % of the remaining change.
         ///
         /// `None` if there is no fit, or if the remaining change exceeds the range of all values.
         limit: Option<(f64, f64)>,
     },
     /// The sequence varies without a pattern.
     Irregular {
-        /// Half the range of the last half.
+        /// Half the range of the values in the last half of the sequence.
         spread: f64,
     },
-    /// The sequence changes in one direction without a recognised limit, or its values are too large to converge.
+    /// The sequence changes in one direction without a recognised limit, or the values are too large to converge.
     Drifts {
-        /// Last difference of two values.
+        /// Difference between the last two values.
         change: f64,
     },
     /// The sequence oscillates about a mean.
@@ -80,7 +80,7 @@ pub struct Bounds {
 /// Result for a settled sequence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settled {
-    /// Index from which all values are within [`BAND`] of the limit.
+    /// Index of the first value from which all values are within [`BAND`] of the limit.
     pub from: usize,
     /// Number of values at the end that are averaged.
     pub last: usize,
@@ -94,7 +94,7 @@ impl Settling {
     /// Determines the behaviour of a sequence.
     pub fn of<S: Sequence + ?Sized>(values: &S, bounds: Bounds) -> Self {
         match Self::judged(values, bounds) {
-            // Such large values mean that the body is carried away, even if they are equal.
+            // Such large values are no steps: the body is carried away, even if all values are equal.
             Self::Settled(settled) if settled.value.abs() > bounds.most => {
                 let change = ending(values, 0).zip(ending(values, 1)).map(|(last, before)| last - before);
                 Self::Drifts { change: change.unwrap_or(0.0) }
@@ -103,7 +103,7 @@ impl Settling {
         }
     }
 
-    /// Determines the behaviour without the check of the magnitude.
+    /// Determines the behaviour of a sequence without a check of the magnitude of the values.
     fn judged<S: Sequence + ?Sized>(values: &S, bounds: Bounds) -> Self {
         let (Bounds { least, .. }, count) = (bounds, values.count());
         let Some(last) = ending(values, 0).filter(|_| values.part(0..count).all(f64::is_finite)) else {
@@ -119,7 +119,7 @@ impl Settling {
         let half = count / 2..count;
         let (middle, spread) = (mean_of(values, half.clone()), half_range(values, half.clone()));
         if count >= FEWEST && values.part(half.clone()).all(|value| value.abs() <= least) {
-            // A slow drift below the threshold has no known limit.
+            // For a slow drift below the threshold, no limit is known.
             let quarter = half.start + half.len() / 2;
             let way = (mean_of(values, half.start..quarter) - mean_of(values, quarter..count)).abs();
             let to_come = if way > 0.5 * spread { least } else { 0.0 };
@@ -176,7 +176,7 @@ impl Settling {
 
     /// Returns the result for a settled sequence.
     ///
-    /// `near` is the distance from the limit at its end, and `apart` is the difference of two fits.
+    /// `near` is the distance of the last value from the limit, and `apart` is the difference of the limits of two fits.
     fn settled<S: Sequence + ?Sized>(values: &S, (limit, near): (f64, f64), apart: f64, scale: f64) -> Self {
         let count = values.count();
         // Sequences on disk are read from their beginning.
@@ -193,7 +193,7 @@ impl Settling {
     }
 }
 
-/// Returns the value `before` positions before the last one.
+/// Returns the value that is `before` positions before the last value.
 fn ending<S: Sequence + ?Sized>(values: &S, before: usize) -> Option<f64> {
     let place = values.count().checked_sub(before + 1)?;
     values.part(place..place + 1).next()

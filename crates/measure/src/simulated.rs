@@ -4,20 +4,20 @@ use std::collections::HashMap;
 use stickslip_drive::Channel;
 use stickslip_scenario::PlotName;
 
-/// Quantities that are always kept.
+/// Quantities of the model that are kept for every scenario.
 const KEPT: [&str; 11] =
     ["time_s", "x_m", "vx_m_s", "z_m", "vz_m_s", "pitch_rad", "vpitch_rad_s", "u_m", "d_m", "fx_N", "fn_N"];
 
 /// Quantities of a driver.
 const DRIVER: [&str; 2] = ["voltage_V", "current_A"];
 
-/// Tolerance for a row at the end of a time interval, relative to its length.
+/// Tolerance for the time of a row at an end of a time interval, relative to the length of the interval.
 const SAME: f64 = 1e-9;
 
-/// Name of the part that the total energies belong to.
+/// Part name of the channels of the total energies.
 pub const ENERGY: &str = "energy";
 
-/// Time history of a run: the rows and the states after events, in order of time. All are computed states, none is interpolated.
+/// Time history of a run: the rows and the states after events, in order of time. All values are computed states without interpolation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     columns: Vec<Column>,
@@ -83,7 +83,7 @@ impl Series {
         self.columns.first().map_or(&[], |column| &column.values)
     }
 
-    /// Returns the rows within a time interval, s. End rows between two rows are interpolated linearly.
+    /// Returns the rows within a time interval, s. If the ends of the interval lie between rows, end rows are interpolated linearly.
     #[must_use]
     pub fn part(&self, (from, to): (f64, f64)) -> Self {
         let time = self.time();
@@ -110,7 +110,7 @@ impl Series {
 
     /// Returns the series with NaN rows before and after a time window, s.
     ///
-    /// Plots then draw no line from the window to the first and the last row of the run, which are kept, too.
+    /// Plots then draw no line from the window to the first and the last row of the run, which are outside of the window.
     #[must_use]
     pub fn broken(&self, [from, to]: [f64; 2]) -> Self {
         let time = self.time();
@@ -129,7 +129,7 @@ impl Series {
         Self { columns: self.columns.iter().map(split).collect(), places: self.places.clone() }
     }
 
-    /// Returns the series with the initial values of some quantities subtracted.
+    /// Returns the series with the initial values of the given quantities subtracted.
     #[must_use]
     pub fn counted_from_start(mut self, quantities: &[&str]) -> Self {
         let is_counted = |name: &str| name.rsplit_once('.').is_some_and(|(_, it)| quantities.contains(&it));
@@ -147,13 +147,13 @@ impl Series {
         self.places.contains_key(name)
     }
 
-    /// Returns a column by its name; an empty slice if it is absent.
+    /// Returns a column by its name, or an empty slice if the column was not kept.
     pub fn named(&self, name: &str) -> &[f64] {
         let place = self.places.get(name);
         place.and_then(|place| self.columns.get(*place)).map_or(&[], |column| &column.values)
     }
 
-    /// Returns a column by part and quantity; an empty slice if it is absent.
+    /// Returns a column by the names of part and quantity, or an empty slice if the column was not kept.
     pub fn column(&self, part: &str, quantity: &str) -> &[f64] {
         self.named(&format!("{part}.{quantity}"))
     }

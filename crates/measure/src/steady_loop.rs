@@ -1,9 +1,9 @@
 //! Evaluation of a steady measured loop with noise, with 95 % confidence intervals.
 //!
-//! Displacements are fitted by the harmonics of one period and a drift. Forces are averaged over the period phase. The branches of the loop
-//! belong to a family of curves: elastic-plastic elements, balls and cones at constant load, in partial and gross slip. The family includes
-//! an elastic part and a time lag of the force. Its parameters are sampled from the posterior distribution by Markov chains ([Goodman and
-//! Weare 2010](https://doi.org/10.2140/camcos.2010.5.65)). The intervals are the 2.5 % and 97.5 % quantiles of the samples.
+//! Displacements are fitted by harmonics and a linear drift. Forces are averaged over phase bins. The branches of the loop belong to a
+//! family of curves: elastic-plastic elements, balls and cones at constant load, in partial and gross slip. The family includes an elastic
+//! part and a time lag of the force. The parameters of the family are sampled from the posterior distribution by Markov chains ([Goodman
+//! and Weare 2010](https://doi.org/10.2140/camcos.2010.5.65)). The intervals are the 2.5 % and 97.5 % quantiles of the samples.
 
 mod branch;
 mod motion;
@@ -16,20 +16,20 @@ use std::f64::consts::TAU;
 
 /// Maximum number of cycles that are fitted with one period, because the period of a rig may drift.
 const CHUNK: usize = 40;
-/// Maximum number of such parts. A longer record is sampled evenly.
+/// Maximum number of parts (groups of cycles fitted with one period). Of a longer record, evenly spaced parts are used.
 const PARTS: usize = 25;
 /// Minimum number of rows per cycle.
 const ROWS: usize = 16;
 /// Minimum number of harmonics of the force for the detection of spikes.
 const FORCES: usize = 12;
-/// Largest residuals of the displacement: relative to its amplitude, and relative to the noise. If both are exceeded, there is no common
-/// period.
+/// Largest residuals of the displacement, relative to its amplitude and relative to the noise. If both are exceeded, the cycles have no
+/// common period.
 const UNEVEN: [f64; 2] = [0.02, 2.0];
-/// Difference of the log likelihoods above which the sign of the force is certain.
+/// Difference of the log likelihoods of both signs above which the sign of the force is certain.
 const SURE: f64 = 12.0;
-/// Probability below and above an interval. An interval that starts at zero has both above it.
+/// Probability below a confidence interval, and above it. An interval that starts at zero has the sum of both above it.
 const TAIL: f64 = 0.025;
-/// Probability beyond one end of an interval whose other end is a value moved by lag (Imbens and Manski 2004).
+/// Probability beyond one end of an interval whose other end is extended to a value that the time lag shifts (Imbens and Manski 2004).
 const ONE_SIDED: f64 = 0.05;
 /// Ratio of the lower to the upper end below which the interval of a non-negative value starts at zero.
 const FROM_ZERO: f64 = 0.05;
@@ -79,7 +79,7 @@ pub struct SteadyLoop {
     pub force_drift: Interval,
     /// Period, in units of time.
     pub period: f64,
-    /// Deviation of the forces from the family of curves: root mean square relative to Q\*. It is 0 if it does not exceed the noise.
+    /// Root mean square deviation of the forces from the family of curves, relative to Q\*. A deviation within the noise is reported as 0.
     pub misfit: f64,
     /// Whether the sign of the force was inverted, because the measured force resists the motion.
     pub is_turned: bool,
@@ -98,7 +98,7 @@ impl Interval {
         0.5 * (self.high - self.low)
     }
 
-    /// Returns the interval of samples. It is widened to include `value`, which time lag may have moved outside.
+    /// Returns the confidence interval of posterior samples, extended to include `value`, which the time lag may shift out of it.
     fn of(mut samples: Vec<f64>, value: f64) -> Self {
         samples.sort_unstable_by(f64::total_cmp);
         let at = |share: f64| samples[((share * samples.len() as f64) as usize).min(samples.len() - 1)];
@@ -135,7 +135,7 @@ pub fn steady_loop(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<S
     Some(all.figures((&samples, &at_zero_lag), (misfit, sign, surety)))
 }
 
-/// Mean loop of cycles, without drift and spikes.
+/// Mean loop of consecutive cycles, without drift and spikes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeanLoop {
     /// Phases since the maximum of the displacement, in periods, in ascending order.
@@ -144,7 +144,7 @@ pub struct MeanLoop {
     pub u: Vec<f64>,
     /// Mean forces, N.
     pub force: Vec<f64>,
-    /// Number of rows of each mean.
+    /// Number of rows that each mean force averages.
     pub counts: Vec<f64>,
     /// Period, in units of time.
     pub period: f64,
@@ -175,7 +175,7 @@ pub fn mean_loop(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<Mea
     })
 }
 
-/// Splits the rows into parts and fits each with one period.
+/// Splits the rows into groups of cycles and fits each group with one period.
 fn parts(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<Vec<Part>> {
     let cycles = ((t.last()? - t.first()?) / period).round();
     if cycles.is_nan() || cycles < 1.0 || (u.len() as f64) < ROWS as f64 * cycles {
@@ -186,7 +186,7 @@ fn parts(t: &[f64], u: &[f64], force: &[f64], period: f64) -> Option<Vec<Part>> 
     let chosen = pieces.min(PARTS as f64);
     let starts = (0..chosen as usize).map(|part| (part as f64 * pieces / chosen) as usize * rows);
     let spans = starts.map(|start| start..(start + rows).min(u.len()));
-    // A last part without a whole cycle is omitted.
+    // If the last part contains no whole cycle, it is omitted.
     let whole = spans.filter(|span| span.len() > 1 && t[span.end - 1] - t[span.start] > 0.9 * period);
     whole.map(|span| Part::fit(&t[span.clone()], &u[span.clone()], &force[span], period)).collect()
 }
@@ -218,7 +218,7 @@ impl Part {
     }
 }
 
-/// Common results of all parts.
+/// Results of all parts (groups of cycles) together.
 struct Together {
     shares: Vec<f64>,
     turn: f64,
@@ -253,7 +253,7 @@ impl Together {
 
     /// Computes the results from samples with a free time lag and samples without a lag.
     ///
-    /// `misfit`, `sign` and `surety` are the deviation from the family of curves, the sign of the force and the certainty of this sign.
+    /// `misfit` is the deviation from the family of curves. `sign` and `surety` are the sign of the force and the certainty of this sign.
     fn figures(
         &self,
         (samples, at_zero_lag): (&[Sample], &[Sample]),

@@ -1,4 +1,4 @@
-//! Evaluation of a stepping drive.
+//! Evaluation of the steps of a drive: step length, back-step, mean speed and repeatability.
 
 use crate::sequence::Sequence;
 use crate::series::{SeriesError, check, check_lengths, check_positive, check_time, sum};
@@ -41,7 +41,7 @@ impl Strides for [Stride] {
     }
 }
 
-/// The step lengths of a sequence of strides.
+/// Step lengths of a sequence of strides, as a [`Sequence`] of numbers.
 struct Lengths<'a, S: ?Sized>(&'a S);
 
 impl<S: Strides + ?Sized> Sequence for Lengths<'_, S> {
@@ -87,7 +87,7 @@ pub struct Steps {
 }
 
 impl Stride {
-    /// Creates the stride of a body that moves from `start` through the positions `inside` to `end`, m.
+    /// Creates the stride of a body that moves from `start` via the positions `inside` to `end`, m.
     fn along(start: f64, inside: impl Iterator<Item = f64>, end: f64) -> Self {
         let blank = Self { start, end, least: start, most: start, fall: 0.0, rise: 0.0 };
         inside.chain([end]).fold(blank, |so_far, x| Self {
@@ -104,9 +104,9 @@ impl Stride {
         self.end - self.start
     }
 
-    /// Returns the back-step, m: the largest motion against the step direction within this period and its repetition.
+    /// Returns the back-step, m: the largest motion against the step direction within this period and a repetition of it.
     ///
-    /// For a step forward, it is max x(t₁) - x(t₂) over t₁ ≤ t₂. Without a step it is the peak-to-peak motion.
+    /// For a step forward, the back-step is max x(t₁) - x(t₂) over t₁ ≤ t₂. Without a step, it is the peak-to-peak motion.
     pub fn back_step(&self) -> f64 {
         let step = self.length();
         if step >= 0.0 {
@@ -118,7 +118,7 @@ impl Stride {
 }
 
 impl Steps {
-    /// Evaluates strides with a drive period, s. `net_travel` is the displacement over the whole record, m.
+    /// Evaluates the strides of a drive. `period` is the drive period, s, and `net_travel` is the displacement over the whole record, m.
     ///
     /// The direction of travel is the sign of the displacement over the whole periods. A drive that moves backwards has negative steps.
     /// `bounds` are known bounds of the step lengths.
@@ -143,10 +143,10 @@ impl Steps {
 
     /// Evaluates a recorded position x(t), m and s, with the drive period T, s.
     ///
-    /// Periods start at the first sample. Positions at their ends are interpolated linearly.
+    /// Periods start at the first sample. Positions at period ends are interpolated linearly.
     ///
     /// # Errors
-    /// The series have fewer than 2 samples or different lengths, are not finite, or have decreasing times. Or the period is not above 0,
+    /// The series have fewer than 2 samples or different lengths, are not finite, or have decreasing times. The period is not above 0,
     /// exceeds the record, or is shorter than the sampling interval.
     pub fn of_record(t: &[f64], x: &[f64], period: f64, bounds: Bounds) -> Result<Self, SeriesError> {
         check_lengths(("x", x), ("t", t))?;
@@ -204,7 +204,7 @@ fn span(t: &[f64], start: f64, end: f64) -> Range<usize> {
     first..t.partition_point(|&s| s < end - hair).max(first)
 }
 
-/// Returns x at a time by linear interpolation. Beyond the record it is the end value, and at a jump the value before it.
+/// Returns the position x at a time by linear interpolation: beyond the record the first or last value, at a jump the value before it.
 fn position(t: &[f64], x: &[f64], time: f64) -> f64 {
     let after = t.partition_point(|&s| s < time);
     if after == 0 {

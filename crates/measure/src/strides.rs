@@ -1,4 +1,4 @@
-//! Storage of the strides of a run: the last ones in memory, the others in an unnamed temporary file.
+//! Storage of the strides (motions of a body in one period) of a run: recent strides in memory, older ones in an unnamed temporary file.
 
 use crate::{Stride, Strides};
 use std::fs::File;
@@ -6,11 +6,11 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Maximum number of strides in memory if there is a file.
+/// Maximum number of strides in memory if older strides are stored in a file.
 const MOST: usize = 1 << 13;
 /// Size of a stride in the file, in bytes: six numbers.
 const BYTES: usize = 48;
-/// Stride that could not be read.
+/// Stride of NaN values that replaces a stride that could not be read.
 const UNREADABLE: Stride = Stride {
     start: f64::NAN,
     end: f64::NAN,
@@ -34,7 +34,7 @@ pub struct StrideList {
 }
 
 impl StrideList {
-    /// Sets the file that stores older strides. Without a file, all strides stay in memory.
+    /// Sets the file that stores older strides. Without this file, all strides stay in memory.
     pub fn spill(&mut self, file: File) {
         self.file = Some(Mutex::new(file));
     }
@@ -50,7 +50,7 @@ impl StrideList {
             let numbers = self.recent.iter().flat_map(|s| [s.start, s.end, s.least, s.most, s.fall, s.rise]);
             let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
             let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
-            // The remains of a failed write are overwritten.
+            // The incomplete data of a failed write are overwritten.
             let end = SeekFrom::Start((BYTES * self.spilled) as u64);
             match file.seek(end).and_then(|_| file.write_all(&bytes)) {
                 Ok(()) => {

@@ -21,10 +21,10 @@ pub struct Tally {
     walker: Option<Walker>,
     accounts: Option<Accounts>,
     excursions: Excursions,
-    /// Extents of the positions of the stepping body and of the foot in the current period. `foot` is that of the last whole period.
+    /// Extents of the positions of the stepping body and of the foot in the current period, and of the foot in the last whole period.
     extents: [Extent; 2],
     foot: Option<Extent>,
-    /// Extents of the driver voltage of the foot's stack in the current and in the last whole period, and its channel index.
+    /// Driver voltage of the stack that moves the foot: extents in the current and in the last whole period, and channel index.
     voltages: [Extent; 2],
     voltage_place: Option<usize>,
 }
@@ -41,10 +41,10 @@ pub struct ContactTally {
     pub open: f64,
     /// Time since which the contact has been open, s. `None` while it is closed.
     pub open_since: Option<f64>,
-    /// Time of the first sample, s; time, s, and indentation, m, of the last sample.
+    /// Time of the first sample, s, and time, s, and indentation, m, of the last sample.
     first: f64,
     last: Option<[f64; 2]>,
-    /// Cycles of the contact. `None` if it has none.
+    /// Detection of the cycles of the contact. `None` if the contact has no cycles.
     loops: Option<Loops>,
 }
 
@@ -53,10 +53,10 @@ struct Walker {
     /// Channel index of x of the body.
     place: usize,
     tracker: Tracker,
-    /// Positions at the last period end, m, and at the end of the current period if it has been reached.
+    /// Position at the start of the current period, m, and position at its end if the end has been reached.
     ends: [Option<f64>; 2],
     strides: StrideList,
-    /// First and last position, m.
+    /// First and last position in the run, m.
     way: Option<[f64; 2]>,
 }
 
@@ -121,7 +121,7 @@ impl Tally {
         }
     }
 
-    /// Adds a sample of the period account: an event or a sampling time.
+    /// Adds a sample to the evaluation of the drive periods: an event or a sampling time.
     pub fn account(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
         if let Some(accounts) = &mut self.accounts {
             accounts.moment(event, values);
@@ -137,17 +137,17 @@ impl Tally {
         &self.excursions
     }
 
-    /// Returns the period account, if there is one.
+    /// Returns the evaluation of the drive periods, if the scenario has a drive that can be evaluated.
     pub fn accounts(&self) -> Option<&Accounts> {
         self.accounts.as_ref()
     }
 
-    /// Adds the extents of the positions of the stepping body and the foot.
+    /// Adds the extents of the positions of the stepping body and of the foot in a part of the current period.
     pub fn extents(&mut self, [body, foot]: [Extent; 2]) {
         self.extents = [self.extents[0].join(body), self.extents[1].join(foot)];
     }
 
-    /// Starts the first period. Earlier extents are discarded.
+    /// Starts the first period. Extents before this time are discarded.
     pub fn begin_extents(&mut self) {
         self.extents = [Extent::NONE; 2];
         self.voltages[0] = Extent::NONE;
@@ -208,7 +208,7 @@ impl Tally {
         way.map_or(0.0, |[first, last]| last - first)
     }
 
-    /// Returns the number of samples that were dropped because a cycle had too many.
+    /// Returns the number of samples that were dropped because a cycle had too many samples.
     pub fn left_out(&self) -> u64 {
         self.contacts.iter().filter_map(|contact| contact.loops.as_ref()).map(|loops| loops.left_out).sum()
     }
@@ -250,7 +250,7 @@ impl ContactTally {
         self.last = Some([t, d]);
     }
 
-    /// Returns the fraction of time in which the contact was open. Returns `None` without a row.
+    /// Returns the fraction of time in which the contact was open. Returns `None` if the run has no rows.
     pub fn open_share(&self) -> Option<f64> {
         let [last, _] = self.last?;
         let total = last - self.first;

@@ -6,9 +6,9 @@ use std::collections::HashMap;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tracks {
     tracks: Vec<Track>,
-    /// Indices of the tracks by source.
+    /// Indices of the tracks of each source.
     places: HashMap<String, Vec<usize>>,
-    /// Number of events.
+    /// Total number of events.
     size: u64,
 }
 

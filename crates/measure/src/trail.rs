@@ -1,6 +1,6 @@
 //! Path in a plane as a function of time.
 
-/// Distance in x between start and end, relative to the stroke, below which a path is closed.
+/// Distance in x between start and end of a path, relative to the range of x, below which the path counts as closed.
 const CLOSED: f64 = 0.01;
 
 /// Path in order of time, such as force versus displacement of a contact, or velocity versus displacement of a body.
@@ -61,7 +61,7 @@ impl Trail {
         points
     }
 
-    /// Returns whether the path ends close to its start in x.
+    /// Returns whether x at the end of the path is close to x at its start.
     pub fn is_closed(&self) -> bool {
         match (self.x.first(), self.x.last()) {
             (Some(first), Some(last)) => (last - first).abs() <= CLOSED * self.stroke(),
@@ -69,13 +69,13 @@ impl Trail {
         }
     }
 
-    /// Returns the range of x, m; 0 without points.
+    /// Returns the range of x, m, or 0 if the path has no points.
     pub fn stroke(&self) -> f64 {
         let (low, high) = self.x.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
         (high - low).max(0.0)
     }
 
-    /// Returns the path with x relative to its first value.
+    /// Returns the path with the first value of x subtracted from all x.
     pub fn counted_from_start(mut self) -> Self {
         let start = self.x.first().copied().unwrap_or(0.0);
         self.x.iter_mut().for_each(|x| *x -= start);

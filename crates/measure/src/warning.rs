@@ -30,7 +30,7 @@ impl Warning {
         Self { kind, path: None, message: message.into(), help: None }
     }
 
-    /// Returns the warning with advice.
+    /// Returns the warning with additional advice.
     #[must_use]
     pub fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }

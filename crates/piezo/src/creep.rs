@@ -1,6 +1,6 @@
 //! Creep of a piezo stack: after a voltage step the stroke changes with the logarithm of time.
 //!
-//! [`Creep`] approximates the logarithm by a sum of exponentials. [`CreepBlock`] is the corresponding linear filter or its inverse.
+//! [`Creep`] approximates the logarithm by a sum of exponentials. [`CreepBlock`] is the linear filter with this response or its inverse.
 
 mod block;
 mod law;

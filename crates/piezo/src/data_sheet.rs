@@ -1,9 +1,9 @@
 //! Mechanical properties of a piezo stack from its data sheet.
 //!
-//! A stack is modelled as a rod of stiffness k = EA/L with a mass m that is uniform over its length. The first resonance is ω =
-//! (π/2)√(k/m) with one end held and ω = π√(k/m) with both ends free (Rayleigh, *The Theory of Sound*, §§ 150-152). The drive model
-//! has massless springs. The mass of the rod is therefore lumped at its ends, so that a spring of stiffness k has these resonances.
-//! The lumped mass is 4m/π² at the free end of a held rod and 2m/π² at each of two free ends.
+//! A stack is modelled as a rod of stiffness k = EA/L with a mass m that is uniform over its length. The first resonance of the rod is ω =
+//! (π/2)√(k/m) with one end held and ω = π√(k/m) with both ends free (Rayleigh, *The Theory of Sound*, §§ 150-152). The drive model has
+//! massless springs. The mass of the rod is lumped at its ends, so that a massless spring has the resonances of the rod. The lumped mass is
+//! 4m/π² at the free end of a held rod and 2m/π² at each of two free ends.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -13,8 +13,8 @@ pub const AGREEMENT: f64 = 0.01;
 
 /// Default mechanical quality factor of a stack.
 ///
-/// Soft ceramics have 65 (PZT-5H) to 75 (PZT-5A) in the bulk and at low fields (Morgan Technical Publication TP-226, table of
-/// properties). Electrodes, bonds and high fields reduce the quality factor.
+/// The quality factor is 65 (PZT-5H) to 75 (PZT-5A) for soft ceramics in the bulk and at low fields (Morgan Technical Publication TP-226,
+/// table of properties). Electrodes, bonds and high fields reduce the quality factor.
 pub const QUALITY: f64 = 50.0;
 
 /// Values of a data sheet in SI units. Every value that is given must be above 0.
@@ -62,23 +62,23 @@ pub struct Stack {
     pub mass: f64,
 }
 
-/// Contradiction between a value and others.
+/// Contradiction between a value of a stack and other values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contradiction {
     /// Path of the contradicting key, relative to the actuator.
     pub key: &'static [&'static str],
-    /// Paths of the other keys, with which the value was compared.
+    /// Paths of the other keys with which the value was compared.
     pub against: Vec<&'static [&'static str]>,
     /// Message with the values that do not agree.
     pub message: String,
 }
 
-/// Reason why values do not define a stack.
+/// Reason why the given values do not define a stack.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SheetError {
     /// Two values contradict each other.
     Contradiction(Contradiction),
-    /// Neither stiffness nor blocking force and stroke are given.
+    /// Neither the stiffness nor blocking force and stroke are given.
     NoStiffness,
 }
 
@@ -98,10 +98,10 @@ mod keys {
 }
 
 impl DataSheet {
-    /// Computes the properties of a stack from its data sheet and the scenario's own values. The scenario's values take precedence.
+    /// Computes the properties of a stack from its data sheet and the scenario's own values. Values of the scenario take precedence.
     ///
     /// # Errors
-    /// Values that differ by more than [`AGREEMENT`], and a stack whose stiffness is unknown.
+    /// Fails if values of the same quantity differ by more than [`AGREEMENT`], or the stiffness is unknown.
     pub fn stack(&self, own: &Own) -> Result<Stack, SheetError> {
         let force = self.blocking_force.zip(self.stroke).map(|(force, stroke)| force / stroke);
         let stiffness = own.stiffness.or(self.stiffness).or(force).ok_or(SheetError::NoStiffness)?;
@@ -154,7 +154,7 @@ impl DataSheet {
         Ok(own.stroke_per_volt.or(sheet.map(|(stroke, voltage)| stroke / voltage)))
     }
 
-    /// Returns the mass, kg: m = k(π/2ω)² from a resonance with one end held, m = k(π/ω)² with both ends free.
+    /// Returns the mass of the stack, kg: m = k(π/2ω)² from a resonance with one end held, m = k(π/ω)² with both ends free.
     fn mass(&self, stiffness: f64, own: &Own) -> Result<f64, SheetError> {
         let of = |quarter_waves: f64, frequency: f64| stiffness * (quarter_waves / (4.0 * frequency)).powi(2);
         let told = [
@@ -183,7 +183,7 @@ impl DataSheet {
 }
 
 impl Stack {
-    /// Returns the electromechanical coupling kα²/C, if stroke per volt and capacitance are known. C is the free capacitance.
+    /// Returns the coupling kα²/C with the free capacitance C, if stroke per volt and capacitance are known.
     #[must_use]
     pub fn coupling(&self) -> Option<f64> {
         let gain = self.stroke_per_volt?;

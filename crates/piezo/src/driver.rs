@@ -9,18 +9,18 @@
 //! * The output stage charges C through R: V̇ = (f - V)/RC. Without a resistance, V = f.
 //! * The current limits bound the voltage rate: -I₋/C ≤ V̇ ≤ I₊/C.
 //!
-//! The start and the end of a current limit are events. A limit ends when V meets f or, with a resistance, when the unlimited rate is
-//! within the limits.
+//! The start and the end of a current limit are events. Without a resistance, a limit ends when V meets f. With a resistance, a limit ends
+//! when the unlimited rate is within the limits.
 //!
 //! All signals are free strokes of the stack in m: αe, αf and αV, where α is the stroke per volt. Output columns are in V and A.
 //!
-//! The driver has an energy balance of its own: source = stored + lost. The source supplies the power f·I with I = C V̇. The
-//! capacitance stores ½CV². The output stage loses the power (f - V)I. Source and losses are integrated as states. By default the
+//! The driver has a separate energy balance: source = stored + lost. The source supplies the power f·I with I = C V̇. The capacitance
+//! stores ½CV². The output stage loses the power (f - V)I. The energies of source and losses are integrated as states. By default the
 //! charge due to strain is neglected, which is a fraction κ = kα²/C of the energy.
 //!
-//! [`Driver::reciprocal`] adds the charge due to strain: Q = CV + kα(e - αV), where C is the free capacitance and e the elongation.
-//! As a stroke rate, the current is αI/C = (1 - κ)αV̇ + κė. This current flows through R and is subject to the limits. The stored
-//! energy is ½CV² - kαV(αV - e). The work of the stack is ∫k(αV - e)α dV. The balance is then source = stored + lost + work.
+//! [`Driver::reciprocal`] adds the charge due to strain: Q = CV + kα(e - αV), where C is the free capacitance and e the elongation. As a
+//! stroke rate, the current is αI/C = (1 - κ)αV̇ + κė. The current flows through R and is subject to the current limits. The stored energy
+//! is ½CV² - kαV(αV - e). The work of the stack is ∫k(αV - e)α dV. The energy balance is then source = stored + lost + work.
 
 mod block;
 mod course;
@@ -42,7 +42,7 @@ pub struct Driver {
     /// Signal of the command and, with strain coupling, the elongation of the stack.
     inputs: Vec<Input>,
     strain: Option<Strain>,
-    /// Scale of the voltage as a stroke, m: the maximum of the command's range and of its magnitude.
+    /// Scale of the voltage as a stroke, m: the larger of the width of the command's range and its largest magnitude.
     span: f64,
     /// Shortest time between two reversals of the command, s.
     quickest: f64,
@@ -65,7 +65,7 @@ impl Driver {
 
     /// Sets the shortest time between two reversals of the command, s.
     ///
-    /// From this time and RC the driver computes the error scale of its voltage, so that current and losses are accurate.
+    /// The driver computes the error scale of its voltage from this time and RC, so that current and losses are accurate.
     #[must_use]
     pub fn commanded_within(self, quickest: f64) -> Self {
         Self { quickest, ..self }

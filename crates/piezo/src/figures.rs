@@ -8,7 +8,7 @@ pub(crate) const COUNT: usize = 15;
 /// Memory of a driver, with one field for each value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Kept {
-    /// Difference between the voltage and its state, as a stroke, m.
+    /// Difference between the voltage and the voltage state, as a stroke, m.
     pub(crate) offset: f64,
     /// Voltage at the end of the last step, as a stroke, m.
     pub(crate) last: f64,
@@ -16,7 +16,7 @@ pub(crate) struct Kept {
     pub(crate) work: f64,
     /// Total charge moved in both directions, as a stroke, m: ∫|αI/C| dt.
     pub(crate) way: f64,
-    /// Energy drawn from the source, J: the integral of its positive power.
+    /// Energy drawn from the source, J: the integral of the positive part of the source power.
     pub(crate) drawn: f64,
     /// Largest current, as a stroke rate, m/s.
     pub(crate) fastest: f64,
@@ -89,7 +89,7 @@ impl Kept {
         })
     }
 
-    /// Returns the values in the order of the memory.
+    /// Returns the values in the order in which the memory stores them.
     pub(crate) fn numbers(&self) -> [f64; COUNT] {
         let [up, down, below, above] = self.limited;
         let Self { offset, last, work, way, drawn, fastest, time, at, elongation, flow, power, .. } = *self;
@@ -100,7 +100,7 @@ impl Kept {
 /// Results of a driver since the start of the evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Figures {
-    /// Energy drawn from the source, J: the integral of its positive power. Energy returned to the source is not subtracted.
+    /// Energy drawn from the source, J: integral of the positive part of the source power. Energy returned to the source is not subtracted.
     pub drawn: f64,
     /// Largest current, A.
     pub peak_current: f64,

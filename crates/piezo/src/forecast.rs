@@ -3,58 +3,58 @@
 use crate::driver::Spec;
 use stickslip_drive::{Piece, Waveform};
 
-/// Smallest number of samples of a smooth piece in the search for its largest rate.
+/// Smallest number of samples of a smooth piece of the command, for the search for its largest rate.
 const LOOKS: f64 = 64.0;
-/// Number of samples in a quarter of the shortest wave, in the same search.
+/// Number of samples in a quarter of the shortest wave, for the search for the largest rate.
 const WAVE_LOOKS: f64 = 16.0;
-/// Largest relative difference of the rates of a straight piece, due to rounding.
+/// Largest relative difference of the rates of a straight piece of the command, due to rounding.
 const CURVED: f64 = 1e-9;
-/// Largest number of pieces of a period in the search.
+/// Largest number of pieces of a period in the search for the largest rate.
 const PIECES: usize = 10_000;
-/// Smallest number of integration steps: per period, per quarter of the shortest wave, and per piece.
+/// Smallest number of integration steps: per period, per quarter of the shortest wave, and per piece of the command.
 const STEPS: f64 = 8000.0;
 const LOOKS_PER_WAVE: f64 = 50.0;
 const FEWEST: f64 = 8.0;
 /// Largest number of integration steps per period.
 const MOST: f64 = 200_000.0;
-/// Largest number of periods until the range of the voltage must be steady.
+/// Largest number of periods after which the range of the voltage must be steady.
 const PERIODS: u32 = 400;
 /// Change of the range from period to period at which the range counts as steady, as a fraction of the commanded range.
 const SETTLED: f64 = 1e-6;
-/// Longest substep of the low-pass in units of 1/ω, and largest number of substeps in a step. Beyond this number there is no forecast.
+/// Longest substep of the low-pass in units of 1/ω, and largest number of substeps in a step. A step with more substeps gives no forecast.
 const FINE: f64 = 0.1;
 const MOST_FINE: f64 = 50.0;
 
 /// Part of a period that needs the largest fraction of the available current.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steepest {
-    /// Start and end of the part, s from the start of the period.
+    /// Start and end of the part, s, measured from the start of the period.
     pub between: (f64, f64),
-    /// Voltages at start and end, V.
+    /// Voltages at start and end of the part, V.
     pub volts: (f64, f64),
     /// Current at the largest rate of the part, A; infinite for a jump; negative for a current out of the stack.
     pub current: f64,
-    /// Available current in the same direction, A; infinite without a limit.
+    /// Available current in the direction of `current`, A; infinite without a limit.
     pub available: f64,
-    /// Whether the rate changes within the part. If so, the current is that of one time only.
+    /// Whether the rate changes within the part. If the rate changes, `current` is needed only at one time.
     pub curved: bool,
 }
 
-/// Forecast of the voltage that a driver makes of a command.
+/// Forecast of the voltage that a driver produces from a command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Forecast {
     /// Part of a period that needs the largest fraction of the available current.
     pub steepest: Steepest,
     /// Range of the commanded strokes, m.
     pub asked: (f64, f64),
-    /// Range of the strokes that remains in periodic operation, m, and the number of periods until then.
+    /// Range of the strokes in periodic operation of the driver, m, and the number of periods after which this range is steady.
     ///
     /// The range is accurate to about a thousandth of the command. `None` if a coarse integration cannot determine the range.
     pub left: Option<((f64, f64), u32)>,
 }
 
 impl Steepest {
-    /// Returns whether the command needs more current than available.
+    /// Returns whether the command needs more current than the driver can supply.
     #[must_use]
     pub fn is_too_steep(&self) -> bool {
         self.current.abs() > self.available
@@ -66,7 +66,7 @@ impl Steepest {
         self.available / spec.capacitance
     }
 
-    /// Returns the time for the change of voltage at the available current, s.
+    /// Returns the time in which the available current changes the voltage as commanded, s.
     #[must_use]
     pub fn takes(&self, spec: &Spec) -> f64 {
         (self.volts.1 - self.volts.0).abs() / self.slew(spec)
@@ -77,7 +77,7 @@ impl Steepest {
 #[must_use]
 pub fn forecast(spec: &Spec, command: &Waveform) -> Option<Forecast> {
     let period = command.period()?;
-    // The second period is used if there is one, because the first may begin differently.
+    // The second period is used if the command has one, because the first period may begin differently.
     let (first, end) = (command.timing().delay, command.window().1);
     let start = if first + 2.0 * period <= end { first + period } else { first };
     Some(Forecast {
@@ -87,9 +87,9 @@ pub fn forecast(spec: &Spec, command: &Waveform) -> Option<Forecast> {
     })
 }
 
-/// Returns the rate with the largest magnitude in a piece, and whether the rate varies.
+/// Returns the rate with the largest magnitude in a piece of the command, and whether the rate varies.
 fn rates(command: &Waveform, piece: &Piece, (from, to): (f64, f64)) -> (f64, bool) {
-    // A straight piece has an infinite resolution.
+    // The resolution of a straight piece is infinite.
     let looks = ((to - from) / command.resolution() * WAVE_LOOKS).ceil().clamp(LOOKS, MOST) as u32;
     let rate_at = |k: u32| command.sample(piece, from + (to - from) * f64::from(k) / f64::from(looks)).rate;
     let steeper = |most: f64, rate: f64| if rate.abs() > most.abs() { rate } else { most };
@@ -101,7 +101,7 @@ fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Opt
     let (sink, source) = spec.current.unwrap_or((f64::INFINITY, f64::INFINITY));
     let volts = |value: f64| value / spec.gain;
     let mut most: Option<Steepest> = None;
-    // Fraction of the available current or, without a limit, the current.
+    // Parts are compared by the needed fraction of the available current or, without a limit, by the current.
     let weight = |it: &Steepest| {
         if it.available.is_finite() { it.current.abs() / it.available } else { it.current.abs() }
     };
@@ -142,14 +142,14 @@ fn steepest(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Opt
 
 /// Divides one period of the command into steps. Returns the length of each step, s, and the command at its end.
 ///
-/// Corners are ends of steps. Returns `None` if a period needs too many steps.
+/// Corners of the command are ends of steps. Returns `None` if a period needs too many steps.
 fn course(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<Vec<(f64, f64)>> {
     let (low, high) = spec.reach();
     let mut steps = Vec::new();
     let mut piece = command.piece_at(start);
     while piece.start < start + period {
         let (from, to) = (piece.start.max(start), piece.end.min(start + period));
-        // A straight piece needs no steps as short as those of a wave.
+        // A straight piece does not need the short steps of a wave.
         let (_, curved) = rates(command, &piece, (from, to));
         let wave = if curved { command.resolution() / LOOKS_PER_WAVE } else { period };
         let n = ((to - from) / wave.min(period / STEPS)).ceil().max(FEWEST);
@@ -188,7 +188,7 @@ fn walk(spec: &Spec, command: &Waveform, (start, period): (f64, f64)) -> Option<
                 None => passed = cut,
                 Some(low) => {
                     let fine = fine(h);
-                    // Symplectic Euler: the rate first, so that an undamped low-pass keeps its amplitude.
+                    // Symplectic Euler method: the rate is updated first, so that an undamped low-pass keeps its amplitude.
                     for _ in 0..fine as u32 {
                         rate += h / fine * omega * (omega * (cut - passed) - 2.0 * low.ratio * rate);
                         passed += h / fine * rate;

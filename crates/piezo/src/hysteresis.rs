@@ -3,8 +3,8 @@
 //! * [`Plays`] is the Prandtl–Ishlinskii model, a weighted sum of play operators with an exact inverse; [`PlayBlock`] is its block.
 //! * [`BoucWen`] is the Bouc–Wen model with one state; [`BoucWenBlock`] is its block.
 //!
-//! Input and output are strokes. The blocks do not act back on the driver. The energy loss of a loop is not part of the model's
-//! energy balance.
+//! Input and output of the blocks are strokes. The blocks do not act back on the driver. The energy loss of a hysteresis loop is not part
+//! of the model's energy balance.
 
 mod block;
 mod bouc_wen;

@@ -13,8 +13,8 @@
 //! * [`hysteresis`] contains the models of Prandtl–Ishlinskii and of Bouc–Wen.
 //! * [`creep`] models logarithmic creep.
 //!
-//! In every block a `law` is a discrete mode, numbered from 0. A `guard` is an event function: it is positive while its mode holds,
-//! and its zero crossing is an event that changes the mode.
+//! In every block a `law` is a discrete mode, numbered from 0. A `guard` is an event function: it is positive while its mode holds. The
+//! zero crossing of an event function is an event that changes the mode.
 
 pub mod creep;
 pub mod data_sheet;

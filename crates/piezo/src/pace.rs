@@ -31,7 +31,7 @@ impl Pace {
         starts.zip(ends).map(|(from, to)| (self.until(to) - self.until(from)).max(0.0)).sum()
     }
 
-    /// Returns the largest magnitude within the step and at its end. The start is excluded, because the step before contains it.
+    /// Returns the largest magnitude within the step and at its end, without the start, which belongs to the previous step.
     pub(crate) fn most(self) -> f64 {
         let Self([_, b, c]) = self;
         let extreme = -0.5 * b / c;
@@ -50,11 +50,11 @@ impl Pace {
         part * (a + part * (0.5 * b + part * c / 3.0))
     }
 
-    /// Returns the zeros within the step in ascending order; 0 stands for a zero that is absent.
+    /// Returns the zeros within the step in ascending order; a missing zero is given as 0.
     fn turns(self) -> [f64; 2] {
         let Self([a, b, c]) = self;
         let root = (b * b - 4.0 * a * c).sqrt();
-        // The first root has no cancellation; the second follows from the product a/c of both.
+        // The first root has no cancellation; the second root follows from the product a/c of both roots.
         let sum = -0.5 * (b + root.copysign(b));
         let within = |part: f64| if part > 0.0 && part < 1.0 { part } else { 0.0 };
         let [one, two] = [within(a / sum), within(sum / c)];

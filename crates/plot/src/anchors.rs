@@ -18,9 +18,9 @@ pub struct AnchorMoment<'a> {
     pub corners: &'a [(f64, f64)],
     /// Positions x of the springs in contact, m, ascending.
     pub x: &'a [f64],
-    /// Heights g(x) of these springs, m.
+    /// Heights g(x) of the springs in contact, m.
     pub g: &'a [f64],
-    /// Displacements p = u - stretch at which these springs are unstretched, m.
+    /// Rest positions p = u - stretch of the springs in contact, m.
     pub p: &'a [f64],
 }
 

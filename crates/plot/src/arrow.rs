@@ -9,7 +9,7 @@ use plotters_backend::DrawingBackend;
 /// Length and half width of an arrowhead, in line widths.
 const LENGTH: f64 = 5.5;
 const HALF: f64 = 2.4;
-/// Sections shorter than this many arrowheads have none.
+/// Minimum length of a section with an arrowhead, in lengths of arrowheads.
 const LEAST: f64 = 6.0;
 
 impl<B: DrawingBackend> Painter<'_, B> {
@@ -56,12 +56,12 @@ fn ways(line: &[Point]) -> Vec<&[Point]> {
     ways
 }
 
-/// Length of a polyline, px.
+/// Returns the length of a polyline, px.
 fn length(way: &[Point]) -> f64 {
     way.windows(2).map(|pair| math::hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1)).sum()
 }
 
-/// Point at a distance `gone` along a polyline, px.
+/// Returns the point at a distance `gone` along a polyline, px.
 fn at(way: &[Point], gone: f64) -> Point {
     let mut left = gone;
     for pair in way.windows(2) {

@@ -19,7 +19,7 @@ pub(crate) struct Beside {
 }
 
 impl Beside {
-    /// Creates the scales from those of the main axes.
+    /// Creates the scales of the second axes from the scales of the main axes.
     pub(crate) fn new(
         (top, right): (Option<&Rescaled>, Option<&Rescaled>),
         (x, y): (&Scale, &Scale),
@@ -42,13 +42,13 @@ impl Beside {
         self.right.as_mut().map_or(Ok(()), |scale| scale.set_ticks(Along::Height(height), em))
     }
 
-    /// Height of the second horizontal axis above the frame, px.
+    /// Returns the height of the second horizontal axis above the frame, px.
     pub(crate) fn height(&self, sizes: Sizes) -> f64 {
         let height = sizes.mark + TICK_LINE * sizes.tick + LABEL_LINE * sizes.label;
         if self.top.is_some() { height } else { 0.0 }
     }
 
-    /// Width of the second vertical axis right of the frame, px.
+    /// Returns the width of the second vertical axis right of the frame, px.
     pub(crate) fn width(&self, sizes: Sizes) -> Result<f64, PlotError> {
         let Some(right) = &self.right else { return Ok(0.0) };
         Ok(sizes.mark + 0.4 * sizes.tick + right.label_width(sizes.tick)? + LABEL_LINE * sizes.label)

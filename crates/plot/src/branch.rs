@@ -58,7 +58,7 @@ fn steps<'a>(branch: &BranchCourse<'a>) -> Panel<'a> {
     panel(branch, Axis::new(Label::plain("step"), "m"), (lines.series, dots(branch, |mark| mark[1])), 0.0)
 }
 
-/// Panel of the moduli. Special points are drawn here at |λ| = 1 if there are no step lengths.
+/// Returns the panel of the moduli. Special points are drawn here at |λ| = 1 if there are no step lengths.
 fn moduli<'a>(branch: &BranchCourse<'a>, with_marks: bool) -> Panel<'a> {
     let mut lines = Lines::default();
     for stretch in &branch.stretches {
@@ -89,7 +89,7 @@ fn panel<'a>(
     }
 }
 
-/// Curves of which only the first stable and the first unstable one have a legend entry.
+/// Curves of a panel. Only the first stable and the first unstable curve have a legend entry.
 #[derive(Default)]
 struct Lines<'a> {
     series: Vec<Series<'a>>,
@@ -109,7 +109,7 @@ impl Lines<'_> {
     }
 }
 
-/// Dots of the special points, one series per kind.
+/// Returns the dots of the special points, one series per kind.
 fn dots<'a>(branch: &BranchCourse<'a>, height: impl Fn(&[f64; 2]) -> f64) -> Vec<Series<'a>> {
     let of = |(kind, (name, places)): (usize, &(String, Vec<[f64; 2]>))| {
         // Points separated by gaps are drawn as dots.

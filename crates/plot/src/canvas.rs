@@ -33,7 +33,7 @@ pub(crate) enum Anchor {
 pub(crate) struct Canvas<'c, B> {
     pub(crate) backend: &'c mut B,
     pub(crate) ink: Colour,
-    /// Px per px of a figure 1600 px wide.
+    /// Scale factor relative to a figure 1600 px wide.
     pub(crate) scale: f64,
 }
 

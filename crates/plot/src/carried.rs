@@ -25,7 +25,7 @@ pub fn read_text(bytes: &[u8]) -> Result<Vec<(String, String)>, PlotError> {
     }
 }
 
-/// Title and provenance of a figure.
+/// Returns the title and provenance of a figure.
 pub(crate) fn texts(figure: &Figure<'_>) -> Vec<(String, String)> {
     let titled = figure.provenance.iter().any(|(key, _)| key == "Title");
     let title = (!titled && !figure.title.is_empty()).then(|| ("Title".to_owned(), figure.title.text()));

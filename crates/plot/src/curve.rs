@@ -20,7 +20,7 @@ pub struct MachineCurve<'a> {
     pub landmarks: Vec<(String, f64)>,
     /// Results over the parameter, one panel each.
     pub courses: Vec<MachineCourse<'a>>,
-    /// Values without a result, grouped by reason.
+    /// Values of the parameter without a result, grouped by reason.
     pub faults: Vec<(String, Vec<f64>)>,
 }
 
@@ -70,7 +70,7 @@ pub fn machine_figure<'a>(title: &str, curve: &MachineCurve<'a>) -> Figure<'a> {
     .with_room_for_legends()
 }
 
-/// Panel of the values without a result, one lane per reason with its count. `None` if all have a result.
+/// Returns the panel of the values without a result, one lane per reason with its count; `None` if all values have a result.
 fn without_answer<'a>(curve: &MachineCurve<'a>) -> Option<Panel<'a>> {
     let lane = |(kind, (reason, at)): (usize, &(String, Vec<f64>))| Lane {
         label: reason.clone(),
@@ -86,7 +86,7 @@ fn without_answer<'a>(curve: &MachineCurve<'a>) -> Option<Panel<'a>> {
     })
 }
 
-/// Axis of the parameter.
+/// Returns the axis of the parameter.
 fn across(curve: &MachineCurve<'_>) -> Axis {
     let (name, unit) = curve.axis;
     Axis { logarithmic: curve.logarithmic, ..Axis::new(Label::plain(name), unit) }
@@ -119,7 +119,7 @@ fn panel<'a>(place: usize, curve: &MachineCurve<'a>, course: &MachineCourse<'a>)
     }
 }
 
-/// Bands of the curves whose result varies from period to period. Only the first has a legend entry.
+/// Returns the bands of the curves whose result varies from period to period. Only the first has a legend entry.
 fn swings<'a>(xs: &'a [f64], lines: &[MachineLine<'a>]) -> Vec<Band<'a>> {
     let swinging = lines.iter().filter(|line| line.spreads.iter().any(|spread| *spread > 0.0));
     let band = |(place, line): (usize, &MachineLine<'a>)| {

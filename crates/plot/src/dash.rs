@@ -3,7 +3,7 @@
 use crate::theme::Dash;
 use crate::thin::Point;
 
-/// Alternating lengths of dashes and gaps, px for a line 1 px wide with round ends.
+/// Returns the alternating lengths of dashes and gaps, px for a line 1 px wide with round ends.
 fn pattern(dash: Dash) -> &'static [f64] {
     match dash {
         Dash::Solid => &[],

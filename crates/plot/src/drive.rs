@@ -86,7 +86,7 @@ pub fn drive_figure<'a>(title: &str, course: &DriveCourse<'a>) -> Figure<'a> {
         .with_room_for_legends()
 }
 
-/// Panels of voltage and current of all drivers.
+/// Returns the panels of voltage and current of all drivers.
 fn supplies<'a>(course: &DriveCourse<'a>) -> [Panel<'a>; 2] {
     let (mut voltage, mut current) = (panel("voltage", "V", 1.0), panel("current", "A", 1.0));
     for (place, supply) in course.supplies.iter().enumerate() {
@@ -117,7 +117,7 @@ fn curve<'a>(course: &DriveCourse<'a>, name: &str, values: &'a [f64], style: Sty
     Series { style, ..Series::new(name, course.time, values) }
 }
 
-/// Palette colour, solid until the colours repeat.
+/// Returns a palette colour with a solid line until the colours repeat.
 fn solid(place: usize) -> Style {
     Style { ink: Some(Ink::Palette(place)), dash: Some(Dash::at(place / Theme::COLOURS)), width: 1.0 }
 }

@@ -66,7 +66,7 @@ pub fn energy_figure<'a>(title: &str, book: &EnergyBook<'a>) -> Figure<'a> {
     }
 }
 
-/// Stacked areas of friction, damping and stored energy.
+/// Returns the stacked areas of friction, damping and stored energy.
 fn areas<'a>(book: &EnergyBook<'a>) -> Vec<Band<'a>> {
     let both = book.friction.iter().zip(book.damping);
     let lost: Vec<f64> = both.map(|(friction, damping)| friction + damping).collect();

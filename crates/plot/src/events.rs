@@ -18,13 +18,13 @@ pub struct EventTrack<'a> {
 
 /// Number of bins in which events are counted.
 const BINS: usize = 400;
-/// If a bin has more events than this, the lane shows their rate instead of marks.
+/// Maximum number of events in a bin for marks; if a bin has more events, the lane shows their rate.
 const MOST_MARKS: usize = 4;
 /// Minimum height of a bin with events, as a fraction of the fullest bin.
 const LEAST: f64 = 0.12;
 
-/// Draws one lane per track over a time range in s, with the number of events on its right. If events are too dense
-/// to be distinguished, the lane shows their rate. Its full height is the rate given next to the number.
+/// Draws one lane per track over a time range in s, with the number of events on its right. If events are too dense to be distinguished,
+/// the lane shows their rate. The full height of such a lane is the rate given next to the number of events.
 pub fn events_figure<'a>(title: &str, span: (f64, f64), tracks: &[EventTrack<'a>]) -> Figure<'a> {
     let mut sources: Vec<&str> = tracks.iter().map(|track| track.source).collect();
     sources.dedup();
@@ -72,14 +72,14 @@ fn lane(track: &EventTrack<'_>, (from, to): (f64, f64), ink: Ink) -> Lane {
     Lane { label, note, marks: marks.map(mark).collect(), ink }
 }
 
-/// Number of events in each bin.
+/// Returns the number of events in each bin.
 fn counts(times: &[f64], from: f64, width: f64) -> [usize; BINS] {
     let mut counts = [0; BINS];
     times.iter().for_each(|t| counts[(((t - from) / width) as usize).min(BINS - 1)] += 1);
     counts
 }
 
-/// Number of events in each bin, with each event distributed over the two nearest bins. This avoids aliasing of regular events.
+/// Returns the number of events in each bin. Each event is distributed over the two nearest bins to avoid aliasing of regular events.
 fn density(times: &[f64], from: f64, width: f64) -> [f64; BINS] {
     let mut density = [0.0; BINS];
     for t in times {

@@ -101,7 +101,7 @@ fn name_all(panels: &mut [Panel<'_>]) {
     }
 }
 
-/// Median of the positive, finite pressures of all times, Pa.
+/// Returns the median of the positive, finite pressures of all times, Pa.
 fn median(moments: &[FieldsMoment<'_>]) -> f64 {
     let pressures = moments.iter().flat_map(|moment| moment.pressure);
     let mut pressures: Vec<f64> = pressures.copied().filter(|p| *p > 0.0 && p.is_finite()).collect();
@@ -109,7 +109,7 @@ fn median(moments: &[FieldsMoment<'_>]) -> f64 {
     pressures.get(pressures.len() / 2).copied().unwrap_or(f64::INFINITY)
 }
 
-/// Range of the finite values, including 0.
+/// Returns the range of the finite values, including 0.
 fn reach(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.filter(|value| value.is_finite()).fold((0.0, 0.0), |(low, high), v| (low.min(v), high.max(v)))
 }
@@ -121,7 +121,7 @@ fn both_sides(r: &[f64], values: impl Iterator<Item = f64>) -> (Vec<f64>, Vec<f6
     left.chain(right.iter().copied()).unzip()
 }
 
-/// Bands of the rings on both sides of the axis, over the full height of the panel.
+/// Returns the bands of the rings on both sides of the axis, over the full height of the panel.
 fn shades(zones: &[FieldsZone], (low, high): (f64, f64)) -> Vec<Band<'static>> {
     let band = |zone: &FieldsZone, side: f64| {
         let (label, ink) = look(zone);
@@ -138,7 +138,7 @@ fn shades(zones: &[FieldsZone], (low, high): (f64, f64)) -> Vec<Band<'static>> {
     zones.iter().flat_map(|zone| [band(zone, -1.0), band(zone, 1.0)]).collect()
 }
 
-/// Legend entry and colour of a ring.
+/// Returns the legend entry and colour of a ring.
 fn look(zone: &FieldsZone) -> (&'static str, Ink) {
     match zone.condition {
         SpringCondition::Open => ("open", Ink::Shade(0)),

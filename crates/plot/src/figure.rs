@@ -68,7 +68,7 @@ impl Figure<'_> {
 
     /// Print width for which the theme's sizes are defined, mm.
     pub const PRINT_WIDTH: f64 = 160.0;
-    /// Resolution of figures with a print width, px per inch. It is halved if the figure would exceed [`Figure::MOST`].
+    /// Resolution of figures with a print width, px per inch. The resolution is halved if the figure would exceed [`Figure::MOST`].
     pub const PRINT_DENSITY: f64 = 600.0;
     const LEAST_DENSITY: f64 = 300.0;
     const INCH: f64 = 25.4;
@@ -153,7 +153,7 @@ impl Figure<'_> {
         self
     }
 
-    /// Number of columns in print for which every panel is at least as wide as the minimum column width.
+    /// Returns the number of columns in print for which every panel is at least as wide as the minimum column width.
     fn columns_in_print(&self, width: f64) -> usize {
         let columns = self.arrangement.columns(self.panels.len());
         let ems = f64::from(Self::DEFAULT_SIZE.0) * width / Self::PRINT_WIDTH / self.theme.tick;
@@ -162,7 +162,7 @@ impl Figure<'_> {
         columns.min((ems / least) as usize).max(1)
     }
 
-    /// Scale of lengths: px of this figure per px of a figure 1600 px wide, which stands for 160 mm.
+    /// Returns the scale of lengths: px of this figure per px of a figure 1600 px wide, which stands for 160 mm.
     pub(crate) fn scale(&self) -> f64 {
         let share = self.print_width.map_or(1.0, |width| Self::PRINT_WIDTH / width);
         f64::from(self.size.0) / f64::from(Self::DEFAULT_SIZE.0) * share
@@ -174,7 +174,7 @@ impl Figure<'_> {
         (Self::DEFAULT_SIZE.0, most.min(Self::MOST))
     }
 
-    /// Figure with a message instead of data.
+    /// Creates a figure with a message instead of data.
     pub(crate) fn without_data(title: &str, words: &str) -> Self {
         let panel = Panel { absence: Label::plain(words), ..Panel::default() };
         Self {
@@ -215,7 +215,7 @@ impl Figure<'_> {
     }
 }
 
-/// Number of notes that are left out, summed over all panels.
+/// Returns the number of notes that are left out, summed over all panels.
 fn lost_notes(figure: &Figure<'_>) -> usize {
     if figure.panels.iter().all(|panel| panel.notes.is_empty()) {
         return 0;
@@ -223,7 +223,7 @@ fn lost_notes(figure: &Figure<'_>) -> usize {
     Layout::new(figure).map_or(usize::MAX, |layout| layout.panels.iter().map(|place| place.lost).sum())
 }
 
-/// Smallest ratio of lane name size to tick label size; 1 without lanes.
+/// Returns the smallest ratio of lane name size to tick label size; 1 without lanes.
 fn least_names(figure: &Figure<'_>) -> f64 {
     if figure.panels.iter().all(|panel| panel.lanes.is_empty()) {
         return 1.0;
@@ -234,7 +234,7 @@ fn least_names(figure: &Figure<'_>) -> f64 {
     })
 }
 
-/// Whether a frame is too low for its labels. Frames with lanes or a fixed aspect ratio are not checked.
+/// Returns whether a frame is too low for its labels. Frames with lanes or a fixed aspect ratio are not checked.
 fn has_low_frames(figure: &Figure<'_>) -> bool {
     match Layout::framed(figure) {
         Err(PlotError::NoRoom { height, width, .. }) => height <= width,
@@ -251,7 +251,7 @@ fn has_low_frames(figure: &Figure<'_>) -> bool {
 }
 
 impl Arrangement {
-    /// Same arrangement with another number of columns.
+    /// Returns the same arrangement with another number of columns.
     fn in_columns(self, columns: usize) -> Self {
         match self {
             Self::Column { .. } => self,
@@ -261,7 +261,7 @@ impl Arrangement {
         }
     }
 
-    /// Number of columns for a number of panels.
+    /// Returns the number of columns for a number of panels.
     pub(crate) fn columns(self, panels: usize) -> usize {
         match self {
             Self::Row => panels.max(1),

@@ -14,7 +14,7 @@ fn face() -> Result<&'static Face<'static>, PlotError> {
     FACE.get_or_init(|| Face::parse(dejavu::sans::regular(), 0).ok()).as_ref().ok_or(PlotError::Font)
 }
 
-/// Width of a text, em.
+/// Returns the width of a text, em.
 pub(crate) fn advance(text: &str) -> Result<f64, PlotError> {
     let face = face()?;
     let units: f64 = text.chars().map(|c| advance_units(face, glyph(face, c))).sum();
@@ -35,7 +35,7 @@ pub(crate) fn outline(text: &str, em: f64, path: &mut PathBuilder) -> Result<(),
     Ok(())
 }
 
-/// Glyph of a character, or the placeholder box if the font does not have it.
+/// Returns the glyph of a character, or the placeholder box if the font lacks the character.
 fn glyph(face: &Face<'_>, c: char) -> GlyphId {
     face.glyph_index(c).unwrap_or(GlyphId(0))
 }

@@ -64,7 +64,7 @@ fn panel<'a>(curve: &GrowthCurve<'a>, cost: &str) -> Panel<'a> {
     }
 }
 
-/// End points of the line of proportional cost, cut at the largest measured cost.
+/// Returns the end points of the line of proportional cost, cut at the largest measured cost.
 fn proportional(curve: &GrowthCurve<'_>, largest: f64) -> Option<(Vec<f64>, Vec<f64>)> {
     let (from, to, cost) = (*curve.sizes.first()?, *curve.sizes.last()?, *curve.costs.first()?);
     if curve.per_size {

@@ -20,10 +20,10 @@ pub struct HysteresisLoop<'a> {
     pub limit: Option<f64>,
 }
 
-/// Draws the tangential force over displacement, with the friction limit ±`μF_N` if all loops have the same.
+/// Draws the tangential force over displacement, with the friction limit ±`μF_N` if all loops have the same limit.
 ///
-/// If all loops have the same `u_c` and `μF_N`, second axes show the values divided by them. Otherwise a second panel
-/// shows the normalised loops of which both are known.
+/// If all loops have the same `u_c` and `μF_N`, second axes show u/`u_c` and `F_x`/`μF_N`. Otherwise a second panel shows the normalised
+/// loops for which `u_c` and `μF_N` are known.
 pub fn loop_figure<'a>(title: &str, loops: &[HysteresisLoop<'a>]) -> Figure<'a> {
     if loops.is_empty() {
         return Figure::without_data(title, "no contacts");
@@ -82,13 +82,13 @@ pub fn marked_loop_figure<'a>(
     figure
 }
 
-/// Friction limit of all loops; `None` if it differs or is unknown.
+/// Returns the friction limit of all loops; `None` if it differs or is unknown.
 fn common_limit(loops: &[HysteresisLoop<'_>]) -> Option<f64> {
     let first = usable(loops.first()?.limit)?;
     loops.iter().all(|l| l.limit == Some(first)).then_some(first)
 }
 
-/// `u_c` and `μF_N` of all loops; `None` if they differ or are unknown.
+/// Returns `u_c` and `μF_N` of all loops; `None` if they differ or are unknown.
 fn common_scale(loops: &[HysteresisLoop<'_>]) -> Option<(f64, f64)> {
     let gross_slip = usable(loops.first()?.gross_slip)?;
     let limit = common_limit(loops)?;

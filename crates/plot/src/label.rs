@@ -18,9 +18,9 @@ pub(crate) struct Run {
 
 /// Size of a subscript relative to its line.
 pub(crate) const SUBSCRIPT: f64 = 0.72;
-/// Distance of a subscript's baseline below that of its line, em of the line.
+/// Distance of a subscript's baseline below the baseline of its line, em of the line.
 pub(crate) const SUBSCRIPT_DROP: f64 = 0.20;
-/// Minimum shrink factor of a long axis label; it keeps 8 pt in print.
+/// Minimum shrink factor of a long axis label; axis labels then keep 8 pt in print.
 const LEAST_SHRINK: f64 = 0.9;
 const ELLIPSIS: &str = "…";
 /// Characters after which a word that is too long may be broken, as in key paths and file names.
@@ -56,12 +56,12 @@ impl Label {
         label
     }
 
-    /// Whether the label has no text.
+    /// Returns whether the label has no text.
     pub fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
 
-    /// Text without formatting.
+    /// Returns the text without formatting.
     pub fn text(&self) -> String {
         self.runs.iter().map(|run| run.text.as_str()).collect()
     }
@@ -84,7 +84,7 @@ impl Label {
         &self.runs
     }
 
-    /// Width in px at a font size in px per em.
+    /// Returns the width in px at a font size in px per em.
     pub(crate) fn width(&self, em: f64) -> Result<f64, PlotError> {
         self.runs.iter().map(|run| Ok(font::advance(&run.text)? * run.scale() * em)).sum()
     }
@@ -134,8 +134,8 @@ impl Label {
         Ok(kept.followed_by(ELLIPSIS))
     }
 
-    /// Breaks the label into at most `lines` lines no wider than `most`, between words, and inside words that are
-    /// wider. The last line is cut.
+    /// Breaks the label into at most `lines` lines no wider than `most`, between words, and inside words that are wider. The last line is
+    /// cut if necessary.
     pub(crate) fn wrapped(&self, em: f64, most: f64, lines: usize) -> Result<Vec<Self>, PlotError> {
         let mut done: Vec<Self> = Vec::new();
         let mut line = Self::default();
@@ -154,8 +154,8 @@ impl Label {
         done.iter().map(|line| line.cut(em, most)).collect()
     }
 
-    /// Words with the separator before each. Words wider than `most` are broken, if possible after the last fitting
-    /// character of [`JOINTS`].
+    /// Returns the words with the separator before each. Words wider than `most` are broken, if possible after the last fitting character
+    /// of [`JOINTS`].
     fn pieces(&self, em: f64, most: f64) -> Result<Vec<(Self, &'static str)>, PlotError> {
         let mut pieces = Vec::new();
         for word in self.words() {
@@ -178,7 +178,7 @@ impl Label {
         Ok(pieces)
     }
 
-    /// Splits a word after its last joint; without a joint the first part is the whole word.
+    /// Splits a word after its last character of [`JOINTS`]. Without such a character, the first part is the whole word.
     fn parted(&self) -> (Self, Self) {
         let characters: Vec<(char, bool)> = self.characters().collect();
         let joint = characters.iter().rposition(|(c, subscript)| JOINTS.contains(c) && !subscript);
@@ -203,7 +203,7 @@ impl Label {
         words
     }
 
-    /// Characters, each with whether it is a subscript.
+    /// Returns the characters of the label, each with a flag for subscripts.
     fn characters(&self) -> impl Iterator<Item = (char, bool)> + '_ {
         self.runs.iter().flat_map(|run| run.text.chars().map(|c| (c, run.subscript)))
     }
@@ -217,7 +217,7 @@ impl Label {
 }
 
 impl Run {
-    /// Font size relative to that of the line.
+    /// Returns the font size of a run relative to the font size of the line.
     pub(crate) fn scale(&self) -> f64 {
         if self.subscript { SUBSCRIPT } else { 1.0 }
     }

@@ -37,13 +37,13 @@ impl Names {
         Ok(smallest)
     }
 
-    /// Width of the widest line, px.
+    /// Returns the width of the widest line, px.
     pub(crate) fn width(&self) -> Result<f64, PlotError> {
         self.lines.iter().flatten().try_fold(0.0, |most: f64, line| Ok(most.max(line.width(self.em)?)))
     }
 }
 
-/// Whether the lines contain all characters of a name.
+/// Returns whether the lines contain all characters of a name.
 fn is_whole(name: &str, lines: &[Label]) -> bool {
     let solid =
         |text: &str| text.chars().filter(|c| !c.is_whitespace() && !c.is_control()).collect::<String>();

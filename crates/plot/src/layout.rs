@@ -43,7 +43,7 @@ pub(crate) struct Placed<'f, 'a> {
     pub(crate) legend: (Legend, Point),
     /// Whether the x axis and the y axis have numbers and a label.
     pub(crate) numbered: (bool, bool),
-    /// Notes inside the frame, and the number of those left out.
+    /// Notes inside the frame, and the number of notes left out.
     pub(crate) notes: Vec<PlacedNote>,
     pub(crate) lost: usize,
     /// Whether the panel has no data.
@@ -64,7 +64,7 @@ pub(crate) struct Layout<'f, 'a> {
 /// Lengths in px, scaled to the figure's width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sizes {
-    /// Px per px of a figure 1600 px wide.
+    /// Scale factor relative to a figure 1600 px wide.
     pub(crate) scale: f64,
     /// Px per em of the title.
     pub(crate) title: f64,
@@ -111,7 +111,7 @@ impl<'f, 'a> Layout<'f, 'a> {
         Ok(layout)
     }
 
-    /// Layout without notes, which take most of the time.
+    /// Computes the layout without notes, because placing notes takes most of the time.
     pub(crate) fn framed(figure: &'f Figure<'a>) -> Result<Self, PlotError> {
         figure.check()?;
         let sizes = Sizes::of(figure);
@@ -150,7 +150,7 @@ impl Figure<'_> {
         self
     }
 
-    /// Number of rows of the common legend, then of the tallest legend in each row of panels.
+    /// Returns the number of rows of the common legend, then of the tallest legend in each row of panels.
     fn legend_rows(&self) -> Vec<usize> {
         let Ok((common, own)) = legends(self, Sizes::of(self), usize::MAX) else { return Vec::new() };
         let columns = self.arrangement.columns(self.panels.len());
@@ -159,14 +159,14 @@ impl Figure<'_> {
         std::iter::once(common.rows.len()).chain(tallest).collect()
     }
 
-    /// Fraction of the height that all legends take.
+    /// Returns the fraction of the height that all legends take.
     pub(crate) fn legend_share(&self) -> f64 {
         let rows: usize = self.legend_rows().into_iter().sum();
         rows as f64 * ROW * Sizes::of(self).tick / f64::from(self.size.1)
     }
 }
 
-/// Common legend and the legends of the panels, wrapped to the available width.
+/// Returns the common legend and the legends of the panels, wrapped to the available width.
 fn legends(figure: &Figure<'_>, sizes: Sizes, most: usize) -> Result<(Legend, Vec<Legend>), PlotError> {
     let mut lists: Vec<_> = figure.panels.iter().map(|panel| entries(panel, &figure.theme)).collect();
     let width = f64::from(figure.size.0) - 2.0 * sizes.margin;
@@ -176,7 +176,7 @@ fn legends(figure: &Figure<'_>, sizes: Sizes, most: usize) -> Result<(Legend, Ve
     Ok((common, own.collect::<Result<_, _>>()?))
 }
 
-/// Width for heading and legend of a panel, px.
+/// Returns the width for heading and legend of a panel, px.
 fn width_above(figure: &Figure<'_>, sizes: Sizes, panel: usize) -> f64 {
     let (wide, _) = figure.shares();
     let cell = (f64::from(figure.size.0) - 2.0 * sizes.margin) * wide[panel % wide.len()];
@@ -185,8 +185,8 @@ fn width_above(figure: &Figure<'_>, sizes: Sizes, panel: usize) -> f64 {
     (cell - beside).min(0.75 * cell)
 }
 
-/// Returns the longest list if it contains all entries of the other panels, as a common legend, and empties all
-/// lists. Returns nothing if fewer than two panels have entries, or if one has other entries.
+/// Returns the longest list if it contains all entries of the other panels, as a common legend, and empties all lists. Returns nothing if
+/// fewer than two panels have entries, or if a panel has other entries.
 fn common(lists: &mut [Vec<Entry>]) -> Vec<Entry> {
     let longest = lists.iter().max_by_key(|list| list.len()).cloned().unwrap_or_default();
     let serves_all = lists.iter().all(|list| list.iter().all(|entry| longest.contains(entry)));

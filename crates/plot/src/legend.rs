@@ -38,8 +38,8 @@ pub(crate) const ROW: f64 = 1.4;
 /// Gap between two entries, em.
 const ENTRY_GAP: f64 = 1.3;
 
-/// Legend entries of a panel: named series in order, then mosaic classes, bands, shapes and reference lines. Equal
-/// entries are listed once.
+/// Returns the legend entries of a panel: named series in order, then mosaic classes, bands, shapes and reference lines. Equal entries are
+/// listed once.
 pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
     let curves = panel.series.iter().enumerate().map(|(place, series)| {
         let stroke = theme.stroke(series.style, place);
@@ -65,7 +65,7 @@ pub(crate) fn entries(panel: &Panel<'_>, theme: &Theme) -> Vec<Entry> {
 }
 
 impl Series<'_> {
-    /// Whether the series has only isolated points: a single one, or several with gaps between them.
+    /// Returns whether the series has only isolated points: a single point, or several points with gaps between them.
     pub(crate) fn is_scattered(&self) -> bool {
         let drawn = |(x, y): (&f64, &f64)| is_drawable(*x) && is_drawable(*y);
         let drawn: Vec<bool> = self.xs.iter().zip(self.ys.iter()).map(drawn).collect();
@@ -74,7 +74,7 @@ impl Series<'_> {
 }
 
 impl Sample {
-    /// Width, px.
+    /// Returns the width, px.
     pub(crate) fn width(self, em: f64) -> f64 {
         em * match self {
             Self::None => 0.0,
@@ -86,7 +86,7 @@ impl Sample {
 }
 
 impl Entry {
-    /// Left edge of the text, px from that of the entry.
+    /// Returns the left edge of the text, px from the left edge of the entry.
     pub(crate) fn text_at(&self, em: f64) -> f64 {
         if self.sample == Sample::None { 0.0 } else { self.sample.width(em) + SAMPLE_GAP * em }
     }
@@ -118,7 +118,7 @@ impl Legend {
         Ok(Self::default())
     }
 
-    /// Width of the widest row, px.
+    /// Returns the width of the widest row, px.
     pub(crate) fn width(&self, em: f64) -> Result<f64, PlotError> {
         let mut most = 0.0_f64;
         for (left, entry) in self.rows.iter().filter_map(|row| row.last()) {
@@ -127,7 +127,7 @@ impl Legend {
         Ok(most)
     }
 
-    /// Height, px.
+    /// Returns the height, px.
     pub(crate) fn height(&self, em: f64) -> f64 {
         self.rows.len() as f64 * ROW * em
     }
@@ -155,7 +155,7 @@ impl Legend {
     }
 }
 
-/// Row and left edge of entries of given widths.
+/// Returns the row and left edge of entries of given widths.
 fn rows(widths: &[f64], most: f64, gap: f64) -> Vec<(usize, f64)> {
     let (mut row, mut at) = (0, 0.0);
     let mut places = Vec::new();
@@ -169,7 +169,7 @@ fn rows(widths: &[f64], most: f64, gap: f64) -> Vec<(usize, f64)> {
     places
 }
 
-/// Number of rows.
+/// Returns the number of rows.
 fn row_count(places: &[(usize, f64)]) -> usize {
     places.last().map_or(0, |(row, _)| row + 1)
 }

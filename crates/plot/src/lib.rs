@@ -29,7 +29,7 @@
 //! * `font`, `stroke`, `raster`: bitmap backend; `palette`: palette of a bitmap;
 //! * [`png`], [`svg`]: output formats; [`carried`]: metadata in the files.
 //!
-//! The same figure gives the same bytes: the font is built in, and nothing else is read.
+//! Equal figures give equal bytes, because the font is built in and no other file is read.
 
 pub mod anchors;
 mod arrow;

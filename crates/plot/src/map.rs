@@ -39,7 +39,7 @@ pub enum MapContent<'a> {
         words: &'a [String],
         /// Class of each cell, column by column. Cells without a result have the index after the last class.
         classes: Vec<u8>,
-        /// Borders between the areas.
+        /// Borders between the areas of the classes.
         borders: Lines,
         /// Positions inside the areas for the class names, with the class index.
         names: Vec<([f64; 2], usize)>,
@@ -87,7 +87,7 @@ pub fn map_figure<'a>(title: &str, map: ResultMap<'a>) -> Figure<'a> {
 /// Cells, classes, polylines, notes and the colour bar of a map.
 type Parts<'a> = (Vec<u8>, Vec<(Label, Ink)>, Vec<Series<'a>>, Vec<Note>, Option<Panel<'a>>);
 
-/// Parts of a heat map: shades, contours with level labels, colour bar.
+/// Returns the parts of a heat map: shades, contours with level labels, colour bar.
 fn numbers<'a>((name, unit): (&str, &str), values: &[f64], contours: &[(f64, Lines)]) -> Parts<'a> {
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
@@ -125,7 +125,7 @@ fn numbers<'a>((name, unit): (&str, &str), values: &[f64], contours: &[(f64, Lin
     (values.iter().map(shade).collect(), ramp().chain(none).collect(), series, levels.collect(), bar)
 }
 
-/// Colours and names of areas. Classes without a name in the map have a legend entry.
+/// Returns the colours and names of areas. Classes without a name in the map have a legend entry.
 fn areas(words: &[String], classes: &[u8], names: &[([f64; 2], usize)]) -> (Vec<(Label, Ink)>, Vec<Note>) {
     let is_shown = |class: usize| classes.contains(&(class as u8));
     let is_named = |class: usize| names.iter().any(|(_, named)| *named == class);
@@ -144,12 +144,12 @@ fn areas(words: &[String], classes: &[u8], names: &[([f64; 2], usize)]) -> (Vec<
     (inks, names.iter().map(note).collect())
 }
 
-/// Palette index of a class.
+/// Returns the palette index of a class.
 fn ink(class: usize) -> usize {
     INKS.get(class).copied().unwrap_or(class)
 }
 
-/// Polylines in the text colour.
+/// Returns the polylines in the text colour.
 fn curves<'a>(lines: &[Vec<[f64; 2]>], width: f64) -> Vec<Series<'a>> {
     let style = Style { ink: Some(Ink::Foreground), dash: Some(Dash::Solid), width };
     let curve = |line: &Vec<[f64; 2]>| {
@@ -159,7 +159,7 @@ fn curves<'a>(lines: &[Vec<[f64; 2]>], width: f64) -> Vec<Series<'a>> {
     lines.iter().map(curve).collect()
 }
 
-/// Measured points as discs with a rim. A point whose class is a class of the map has the colour of that class.
+/// Returns the measured points as discs with a rim. A point of a class that occurs in the map has the colour of that class.
 fn dots<'a>(classes: &[(String, Vec<[f64; 2]>)], words: &[String]) -> Vec<Series<'a>> {
     let dot = |(place, (name, points)): (usize, &(String, Vec<[f64; 2]>))| {
         // Gaps prevent connecting lines.

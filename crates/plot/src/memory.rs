@@ -24,7 +24,7 @@ pub struct MemoryMoment<'a> {
     pub p: &'a [f64],
 }
 
-/// One panel per time: p - u over h, inside the wedge of full slip |p - u| ≤ κ(d - h). All panels have the same axes.
+/// Draws one panel per time: p - u over h, inside the wedge of full slip |p - u| ≤ κ(d - h). All panels have the same axes.
 pub fn memory_figure<'a>(title: &str, moments: &[MemoryMoment<'a>]) -> Figure<'a> {
     let first = moments.first().map(|moment| moment.contact);
     let is_named = moments.iter().any(|moment| Some(moment.contact) != first);

@@ -15,7 +15,7 @@ pub(crate) struct Image {
 }
 
 impl Image {
-    /// Colour of each pixel, row by row.
+    /// Returns the colour of each pixel, row by row.
     pub(crate) fn colours(&self) -> impl Iterator<Item = Word> + Clone + '_ {
         self.rgb.chunks_exact(3).map(|c| word([c[0], c[1], c[2]]))
     }
@@ -25,12 +25,12 @@ impl Image {
 type Light = [f64; 4];
 
 impl Mosaic<'_> {
-    /// Edges of the columns in axis coordinates, one more than columns.
+    /// Returns the edges of the columns in axis coordinates, one more than columns.
     pub(crate) fn column_edges(&self, axis: &Axis) -> Vec<f64> {
         edges(&laid_off(&self.xs, axis), 0.0)
     }
 
-    /// Edges of the rows in axis coordinates, one more than rows.
+    /// Returns the edges of the rows in axis coordinates, one more than rows.
     pub(crate) fn row_edges(&self, axis: &Axis) -> Vec<f64> {
         edges(&laid_off(&self.ys, axis), 0.5)
     }
@@ -72,12 +72,12 @@ impl Mosaic<'_> {
     }
 }
 
-/// Positions in axis coordinates.
+/// Returns the positions in axis coordinates.
 fn laid_off(places: &[f64], axis: &Axis) -> Vec<f64> {
     places.iter().map(|place| axis.measure(*place)).collect()
 }
 
-/// Midpoints between positions. The outer edges are `beyond` times the adjacent distance away from the first and the last position.
+/// Returns the cell borders: midpoints between positions, and two outer borders at `beyond` times the distance of the next two positions.
 fn edges(places: &[f64], beyond: f64) -> Vec<f64> {
     let [first, second, ..] = places else { return [places, places].concat() };
     let [.., before, last] = places else { return Vec::new() };
@@ -86,7 +86,7 @@ fn edges(places: &[f64], beyond: f64) -> Vec<f64> {
     std::iter::once(start).chain(middles).chain([last + beyond * (last - before)]).collect()
 }
 
-/// Edges in pixels. A single cell without width fills the frame.
+/// Returns the edges in pixels. A single cell without width fills the frame.
 fn pixels(edges: &[f64], place: impl Fn(f64) -> f64, size: f64) -> Vec<f64> {
     match edges {
         [start, .., end] if start == end => {
@@ -96,7 +96,7 @@ fn pixels(edges: &[f64], place: impl Fn(f64) -> f64, size: f64) -> Vec<f64> {
     }
 }
 
-/// For each pixel of a line, the cells that cover it with their fractions.
+/// Returns for each pixel of a line the cells that cover it, with the covered fractions.
 fn parts(edges: &[f64], pixels: usize) -> Vec<Vec<(usize, f64)>> {
     let mut parts = vec![Vec::new(); pixels];
     for (cell, pair) in edges.windows(2).enumerate() {
@@ -121,7 +121,7 @@ fn light(Colour(r, g, b): Colour) -> Light {
     [linear(f64::from(r) / 255.0), linear(f64::from(g) / 255.0), linear(f64::from(b) / 255.0), 1.0]
 }
 
-/// Transfer function of sRGB (IEC 61966-2-1) from a value in 0 to 1 to linear light.
+/// Applies the transfer function of sRGB (IEC 61966-2-1), from a value in 0 to 1 to linear light.
 fn linear(value: f64) -> f64 {
     if value <= 0.040_45 { value / 12.92 } else { math::powf((value + 0.055) / 1.055, 2.4) }
 }

@@ -14,7 +14,7 @@ pub(crate) struct PlacedNote {
     pub(crate) em: f64,
     /// Lines, each with the midpoint of its baseline.
     pub(crate) lines: Vec<(Label, Point)>,
-    /// Pointer from the text to the named part, if that is distant.
+    /// Pointer from the text to the named part, if the part is distant.
     pub(crate) pointer: Option<[Point; 2]>,
     /// Ink of the named part, if the text takes its colour.
     pub(crate) ink: Option<Ink>,
@@ -33,14 +33,14 @@ const FOREIGN: f64 = 3.0;
 const POINTING: f64 = 1.5;
 /// Penalty for each line that a pointer crosses, as a distance in em.
 const CROSSING: f64 = 1.0;
-/// Weight of the distance between the centres of note and named part; it decides between equal distances.
+/// Weight of the distance between the centres of note and named part; this term decides between positions at equal distance.
 const CENTRED: f64 = 0.1;
-/// Maximum line width as a fraction of the frame, and the maximum number of lines that a longer one is broken into.
+/// Maximum line width as a fraction of the frame, and the maximum number of lines into which a longer line is broken.
 const WIDEST: f64 = 0.3;
 const BROKEN: usize = 3;
 /// Maximum number of notes that are placed; the others are only counted.
 const MOST: usize = 200;
-/// Maximum number of candidate positions that are checked for pointers, in order of cost. This bounds the time in crowded frames.
+/// Maximum number of candidate positions that are checked for pointers, in order of cost. This limit bounds the time with many notes.
 const TRIED: usize = 10_000;
 
 /// Finds positions for the notes of a panel. The number of notes left out appears inside the frame, or in the label
@@ -70,7 +70,7 @@ pub(crate) fn place(panel: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), Plot
     Ok(())
 }
 
-/// Grid of cells over the frame, with what covers them.
+/// Grid of cells over the frame, each with the lines, texts and shapes that cover it.
 struct Board {
     frame: Area,
     em: f64,
@@ -84,7 +84,7 @@ struct Board {
     shapes: Vec<usize>,
 }
 
-/// Text to be placed; its size in cells.
+/// Text to be placed, with its size in cells.
 struct Text {
     width: usize,
     height: usize,
@@ -119,7 +119,7 @@ impl Board {
         board
     }
 
-    /// Places a note at the best position and marks its cells; `None` if there is no free position.
+    /// Places a note at the best position and marks its cells. Returns `None` if there is no free position.
     fn set(&mut self, panel: &Placed<'_, '_>, note: &Note) -> Result<Option<PlacedNote>, PlotError> {
         let em = self.em;
         let mut lines = Vec::new();
@@ -152,7 +152,7 @@ impl Board {
         Ok(Some(PlacedNote { em, lines: lines.collect(), pointer, ink: note.ink }))
     }
 
-    /// Free position with the lowest cost, as column and row of the top left cell.
+    /// Returns the free position with the lowest cost, as column and row of the top left cell.
     fn search(&self, text: &Text, on: Option<usize>) -> Option<(usize, usize)> {
         let own = on.map_or(0, |place| place + 1);
         let taken = Sums::new(self, |cell| self.taken[cell]);
@@ -184,7 +184,7 @@ impl Board {
         best.map(|(_, at)| at)
     }
 
-    /// Cost of a position for its distance from the named part, em.
+    /// Returns the cost of a position for its distance from the named part, em.
     fn cost(&self, text: &Text, at: (usize, usize)) -> f64 {
         let area = self.area(text, at);
         let away = distance(area, text.about) / self.em;
@@ -193,14 +193,14 @@ impl Board {
         away + CENTRED * off + if away > FAR { POINTING } else { 0.0 }
     }
 
-    /// Rectangle of a text at a position, px.
+    /// Returns the rectangle of a text at a position, px.
     fn area(&self, text: &Text, (column, row): (usize, usize)) -> Area {
         let cell = self.em / FINENESS;
         let (left, top) = (self.frame.left + column as f64 * cell, self.frame.top + row as f64 * cell);
         Area { left, top, width: text.width as f64 * cell, height: text.height as f64 * cell }
     }
 
-    /// Pointer from a text to the named part; `None` if they are close.
+    /// Returns the pointer from a text to the named part; `None` if they are close.
     fn pointer(&self, text: Area, about: Area) -> Option<[Point; 2]> {
         let end = nearest(about, centre(text));
         let inner = CLEAR * self.em;
@@ -209,7 +209,7 @@ impl Board {
         (distance(text, about) > FAR * self.em).then(|| [nearest(text_alone, end), end])
     }
 
-    /// Number of lines that a pointer crosses; `None` if it crosses a text.
+    /// Returns the number of lines that a pointer crosses; `None` if it crosses a text.
     fn crossed(&self, pointer: [Point; 2]) -> Option<usize> {
         let (mut crossed, mut was_taken) = (0, false);
         for cell in self.cells(pointer) {
@@ -227,7 +227,7 @@ impl Board {
         cells.into_iter().for_each(|cell| self.taken[cell] = true);
     }
 
-    /// Cells along a line, inside the frame.
+    /// Returns the cells along a line, inside the frame.
     fn cells(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = usize> + '_ {
         let cell = self.em / FINENESS;
         // No visible line is longer than both sides of the frame together.
@@ -293,12 +293,12 @@ fn centre(area: Area) -> Point {
     (area.left + area.width / 2.0, area.top + area.height / 2.0)
 }
 
-/// Point of a rectangle that is nearest to a given point.
+/// Returns the point of a rectangle that is nearest to a given point.
 fn nearest(area: Area, (x, y): Point) -> Point {
     (x.max(area.left).min(area.left + area.width), y.max(area.top).min(area.top + area.height))
 }
 
-/// Distance between two rectangles.
+/// Returns the distance between two rectangles.
 fn distance(a: Area, b: Area) -> f64 {
     let gap = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0 - b.1).max(b.0 - a.0 - a.1).max(0.0);
     math::hypot(gap((a.left, a.width), (b.left, b.width)), gap((a.top, a.height), (b.top, b.height)))

@@ -30,8 +30,8 @@ pub struct OrbitCourse<'a> {
     pub multipliers: Vec<(f64, f64)>,
 }
 
-/// Draws positions, velocities and forces over one period, and the Floquet multipliers in the complex plane with the
-/// unit circle. Multipliers outside the circle have another colour: their disturbances grow.
+/// Draws positions, velocities and forces over one period, and the Floquet multipliers in the complex plane with the unit circle.
+/// Multipliers outside the circle, whose disturbances grow, have another colour.
 pub fn orbit_figure<'a>(title: &str, course: &OrbitCourse<'a>) -> Figure<'a> {
     let time = Axis { tight: true, ..Axis::new(Label::plain("time t"), "s") };
     let track = |track: &Track<'a>, ink, dash, width| Series {
@@ -63,7 +63,7 @@ pub fn orbit_figure<'a>(title: &str, course: &OrbitCourse<'a>) -> Figure<'a> {
         .with_room_for_legends()
 }
 
-/// Panel of the multipliers, grouped by stability.
+/// Returns the panel of the multipliers, grouped by stability.
 fn circle(multipliers: &[(f64, f64)]) -> Panel<'static> {
     let angles = (0..POINTS).map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(POINTS - 1));
     let (x, y): (Vec<f64>, Vec<f64>) = angles.map(|angle| (math::cos(angle), math::sin(angle))).unzip();

@@ -11,7 +11,7 @@ const FINE: f64 = 0.75;
 
 /// Overlays the curves of figures of the same kind. Each figure has a colour and a legend entry; its curves differ in dashes.
 ///
-/// Pale curves are left out, and muted ones are taken from the first figure only. Reference lines that differ between figures are named
+/// Pale curves are left out, and muted curves are taken from the first figure only. Reference lines that differ between figures are named
 /// after their figure. Panels that not all figures have are left out. Returns `None` if no panel with curves remains.
 pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Figure<'a>> {
     let (_, first) = figures.first()?;
@@ -28,7 +28,7 @@ pub fn overlaid<'a>(title: &str, figures: &[(String, Figure<'a>)]) -> Option<Fig
     Some(Figure { title: Label::plain(title), panels, provenance: Vec::new(), ..stands })
 }
 
-/// Panel of a figure that shows the same quantities as panel `place` of the first figure. Among several it is the one at the same rank.
+/// Returns the panel of a figure with the same quantities as panel `place` of the first figure; among several, the panel of equal rank.
 fn like<'a>(figure: &Figure<'a>, first: &Figure<'a>, place: usize) -> Option<Panel<'a>> {
     let shown = |panel: &Panel<'_>| {
         let [x, y] = [&panel.x, &panel.y].map(|axis| (axis.label.text(), axis.unit.clone()));
@@ -80,7 +80,7 @@ fn panel<'a>(panels: Vec<(&str, Panel<'a>)>) -> Panel<'a> {
     all
 }
 
-/// Legend entry of a curve: name of the figure, and of the curve if it has one.
+/// Returns the legend entry of a curve: name of the figure, and of the curve if it has one.
 fn named(name: &str, series: &Series<'_>) -> Label {
     match series.label.text() {
         label if label.is_empty() => Label::plain(name),
@@ -88,7 +88,7 @@ fn named(name: &str, series: &Series<'_>) -> Label {
     }
 }
 
-/// Names of reference lines that are not the same in all panels.
+/// Returns the names of reference lines that are not the same in all panels.
 fn differing(panels: &[(&str, Panel<'_>)]) -> Vec<String> {
     let first = panels.first().map(|(_, panel)| &panel.references[..]).unwrap_or_default();
     let others = panels.iter().skip(1).flat_map(|(_, panel)| &panel.references);
@@ -97,7 +97,7 @@ fn differing(panels: &[(&str, Panel<'_>)]) -> Vec<String> {
 }
 
 impl Reference {
-    /// Adds the name of a result to that of a reference line.
+    /// Adds the name of a result to the name of a reference line.
     fn of(self, name: &str) -> Self {
         let named = |label: Label| label.followed_by(&format!(" of {name}"));
         match self {

@@ -38,7 +38,7 @@ pub(crate) fn paint<B: DrawingBackend>(
     Ok(painter.canvas.backend.present()?)
 }
 
-/// Images of the mosaics with their frames, at `density` image pixels per px of the figure.
+/// Returns the images of the mosaics with their frames, at `density` image pixels per px of the figure.
 pub(crate) fn mosaics<'l>(
     layout: &'l Layout<'_, '_>,
     theme: &'l Theme,
@@ -197,7 +197,7 @@ impl<B: DrawingBackend> Painter<'_, B> {
     }
 }
 
-/// Whether a panel has a grid: not with a mosaic, which would hide it, and not with notes.
+/// Returns whether a panel has a grid: not with a mosaic, which would hide the grid, and not with notes.
 fn has_grid(panel: &Panel<'_>) -> bool {
     panel.mosaic.is_none() && panel.notes.is_empty()
 }
@@ -205,7 +205,7 @@ fn has_grid(panel: &Panel<'_>) -> bool {
 /// Radius of an isolated point, in line widths.
 pub(crate) const DOT: f64 = 1.6;
 
-/// Centre of a label: the middle of its frame, shifted as little as necessary to lie between two ends.
+/// Returns the centre of a label: the middle of its frame, shifted as little as necessary to lie between two ends.
 fn centred(middle: f64, (start, end): (f64, f64), length: f64) -> f64 {
     let half = (length / 2.0).min((end - start) / 2.0).max(0.0);
     middle.min(end - half).max(start + half)

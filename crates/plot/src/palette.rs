@@ -28,8 +28,8 @@ const SLOTS: usize = 1 << 14;
 /// Multiplier of the hash function, an odd number near 2³² divided by the golden ratio (Knuth, The Art of Computer Programming 3, 6.4).
 const SPREAD: u32 = 0x9E37_79B1;
 
-/// Hash table that counts and numbers the colours of a picture. It is faster than that of the standard library, which
-/// resists collision attacks.
+/// Hash table that counts and numbers the colours of a picture. It is faster than the hash table of the standard library, which resists
+/// collision attacks.
 struct Colours {
     /// Number of the colour in each slot, from 1; 0 for an empty slot.
     slots: Vec<u16>,
@@ -38,8 +38,8 @@ struct Colours {
 }
 
 impl Indexed {
-    /// Creates an indexed image from `count` pixels. Up to 256 colours are kept exactly; otherwise similar ones are
-    /// merged, the most frequent first. Returns `None` if too many colours remain.
+    /// Creates an indexed image from `count` pixels. Up to 256 colours are kept exactly; otherwise similar colours are merged, the most
+    /// frequent first. Returns `None` if too many colours remain.
     pub(crate) fn new(count: usize, pixels: impl Iterator<Item = Word> + Clone) -> Option<Self> {
         if let Some((colours, pixels)) = Colours::number::<u8>(count, pixels.clone()) {
             let palette = colours.found.iter().map(|(colour, _)| rgb(*colour)).collect();
@@ -89,15 +89,15 @@ impl Colours {
         Some(number)
     }
 
-    /// Palette, and the palette index of each colour.
+    /// Returns the palette, and the palette index of each colour.
     fn palette(&self) -> Option<(Vec<Rgb>, Vec<u8>)> {
         let mut order: Vec<usize> = (0..self.found.len()).collect();
         order.sort_by_key(|&number| (std::cmp::Reverse(self.found[number].1), self.found[number].0));
         NEAR.into_iter().find_map(|near| self.merged(&order, near))
     }
 
-    /// Palette in which each colour is merged with the nearest earlier one if they differ by at most `near`. `None`
-    /// if more than 256 colours remain.
+    /// Returns the palette in which each colour is merged with the nearest earlier one if they differ by at most `near`. `None` if more
+    /// than 256 colours remain.
     fn merged(&self, order: &[usize], near: u8) -> Option<(Vec<Rgb>, Vec<u8>)> {
         let mut palette: Vec<Rgb> = Vec::new();
         let mut places = vec![0; self.found.len()];

@@ -41,7 +41,7 @@ pub struct Panel<'a> {
     pub share: f64,
 }
 
-/// Axis. Its range covers the data and the reference lines.
+/// Axis, whose range covers the data and the reference lines.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Axis {
     /// Name of the quantity, without unit.
@@ -64,7 +64,7 @@ pub struct Axis {
 pub struct Rescaled {
     /// Name of the dimensionless quantity.
     pub label: Label,
-    /// Divisor, in the unit of the axis. The second axis is omitted if it is not above 0.
+    /// Divisor, in the unit of the axis. The second axis is omitted if the divisor is not above 0.
     pub by: f64,
 }
 
@@ -111,9 +111,9 @@ pub struct Shape {
     pub ink: Ink,
 }
 
-/// Text inside the frame that names a point or a part of the drawing. It takes the nearest position without overlap
-/// with lines and other notes, if possible also off foreign shapes. A pointer connects distant notes to what they
-/// name. A note without a free position is left out and counted.
+/// Text inside the frame that names a point or a part of the drawing. The note takes the nearest position without overlap with lines and
+/// other notes, if possible also off foreign shapes. A pointer connects distant notes to the part that they name. A note without a free
+/// position is left out and counted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Note {
     /// Lines of the text.
@@ -144,7 +144,7 @@ pub struct Mosaic<'a> {
 /// Row of marks with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
-    /// Name, left of the lane. It is wrapped and shrunk where necessary.
+    /// Name left of the lane, wrapped and shrunk where necessary.
     pub label: String,
     /// Text right of the lane, such as a count.
     pub note: String,
@@ -197,7 +197,7 @@ impl Axis {
 }
 
 impl Reference {
-    /// Name of the line in the legend.
+    /// Returns the name of the line in the legend.
     pub(crate) fn label(&self) -> &Label {
         match self {
             Self::Horizontal { label, .. } | Self::Vertical { label, .. } => label,
@@ -206,7 +206,7 @@ impl Reference {
 }
 
 impl Panel<'_> {
-    /// Index of a reference line's name among the names in the panel; it selects the line style. 0 for lines without a name.
+    /// Returns the index of a reference line's name among the names in the panel; it selects the line style. 0 for lines without a name.
     pub(crate) fn place_of(&self, reference: &Reference) -> usize {
         let mut names: Vec<&Label> = Vec::new();
         for label in self.references.iter().map(Reference::label).filter(|label| !label.is_empty()) {
@@ -217,7 +217,7 @@ impl Panel<'_> {
         names.iter().position(|label| *label == reference.label()).unwrap_or(0)
     }
 
-    /// Whether the panel has no data.
+    /// Returns whether the panel has no data.
     pub(crate) fn is_empty(&self) -> bool {
         let series = self.series.iter().all(|series| self.points(series).flatten().next().is_none());
         let bands = self.bands.iter().all(|band| self.columns(band).flatten().next().is_none());
@@ -225,7 +225,7 @@ impl Panel<'_> {
         series && bands && mosaic && self.shapes.is_empty() && self.lanes.is_empty()
     }
 
-    /// Points of a series in axis coordinates; `None` for a gap.
+    /// Returns the points of a series in axis coordinates; `None` for a gap.
     pub(crate) fn points<'p>(
         &'p self,
         series: &'p Series<'_>,
@@ -236,7 +236,7 @@ impl Panel<'_> {
         })
     }
 
-    /// Horizontal coordinate and both edges of a band in axis coordinates; `None` for a gap.
+    /// Returns the horizontal coordinate and both edges of a band in axis coordinates; `None` for a gap.
     pub(crate) fn columns<'p>(
         &'p self,
         band: &'p Band<'_>,
@@ -269,14 +269,14 @@ impl Panel<'_> {
 }
 
 impl Shape {
-    /// Corners with drawable coordinates.
+    /// Returns the corners with drawable coordinates.
     pub(crate) fn drawable(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.corners.iter().copied().filter(|(x, y)| is_drawable(*x) && is_drawable(*y))
     }
 }
 
 impl Mosaic<'_> {
-    /// Whether every cell has a known class and the positions are ascending.
+    /// Returns whether every cell has a known class and the positions are ascending.
     pub(crate) fn is_sound(&self) -> bool {
         let ordered = |places: &[f64]| {
             places.iter().copied().all(is_drawable) && places.windows(2).all(|pair| pair[0] <= pair[1])
@@ -289,7 +289,7 @@ impl Mosaic<'_> {
     }
 }
 
-/// Whether a value is at most 1e150 in magnitude, so that differences and squares stay finite.
+/// Returns whether a value is at most 1e150 in magnitude, so that differences and squares stay finite.
 pub(crate) fn is_drawable(value: f64) -> bool {
     value.abs() <= crate::range::LARGEST
 }

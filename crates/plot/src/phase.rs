@@ -11,7 +11,7 @@ use std::ops::Range;
 pub struct PhasePath<'a> {
     /// Name of the body.
     pub name: &'a str,
-    /// Coordinate; `None` along the slide.
+    /// Coordinate; `None` for the position along the slide.
     pub coordinate: Option<Coordinate>,
     /// Displacement, m or rad.
     pub displacement: &'a [f64],
@@ -99,14 +99,14 @@ fn is_comparable(a: &PhasePath<'_>, b: &PhasePath<'_>) -> bool {
     a.coordinate == b.coordinate && ratio(a.displacement, b.displacement) && ratio(a.velocity, b.velocity)
 }
 
-/// Smallest and largest finite value.
+/// Returns the smallest and largest finite value.
 fn range(values: &[f64]) -> (f64, f64) {
     let finite = values.iter().copied().filter(|v| v.is_finite());
     finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// Index at which the last full cycle begins if most earlier points are within its displacement range; otherwise 0. A
-/// cycle starts where the velocity becomes high after it was low.
+/// Returns the index at which the last full cycle begins if most earlier points are within its displacement range; otherwise 0. A cycle
+/// starts where the velocity becomes high after it was low.
 fn last_cycle(path: &PhasePath<'_>) -> usize {
     let (low, high) = range(path.velocity);
     let (fall, rise) = (low + SWING * (high - low), high - SWING * (high - low));

@@ -222,7 +222,7 @@ fn fit_aspect(place: &mut Placed<'_, '_>, sizes: Sizes) -> Result<(), PlotError>
     set_y_ticks(place, sizes, place.cell.width)
 }
 
-/// Width of numbers and ticks left of a frame, px.
+/// Returns the width of numbers and ticks left of a frame, px.
 fn numbers(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     if !place.numbered.1 {
         return Ok(sizes.mark);
@@ -231,13 +231,13 @@ fn numbers(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     Ok(sizes.mark + 0.4 * sizes.tick + width)
 }
 
-/// Width of the label of the y axis, px.
+/// Returns the width of the label of the y axis, px.
 fn label_width(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     let bare = place.y.label.is_empty() && place.y.unit.is_empty();
     if bare || !place.numbered.1 { 0.0 } else { LABEL_LINE * sizes.label }
 }
 
-/// Width of the notes or the second axis right of a frame, px, with a small minimum.
+/// Returns the width of the notes or the second axis right of a frame, px, with a small minimum.
 fn notes(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     let least = place.beside.width(sizes)?.max(0.2 * sizes.tick);
     place.panel.lanes.iter().try_fold(least, |most: f64, lane| {
@@ -246,7 +246,7 @@ fn notes(place: &Placed<'_, '_>, sizes: Sizes) -> Result<f64, PlotError> {
     })
 }
 
-/// Height of the labels below a frame, px.
+/// Returns the height of the labels below a frame, px.
 fn below(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     if !place.numbered.0 {
         // Room for the ticks, or for half a number of the y axis.
@@ -256,7 +256,7 @@ fn below(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     sizes.mark + TICK_LINE * sizes.tick + if bare { 0.0 } else { LABEL_LINE * sizes.label }
 }
 
-/// Height above a frame, px: heading, legend, second axis, and a gap for half a number of the y axis.
+/// Returns the height above a frame, px: heading, legend, second axis, and a gap for half a number of the y axis.
 fn above(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     let texts = heading_height(place, sizes) + place.legend.0.height(sizes.tick);
     texts + place.beside.height(sizes) + 0.4 * sizes.tick
@@ -266,7 +266,7 @@ fn heading_height(place: &Placed<'_, '_>, sizes: Sizes) -> f64 {
     place.heading.0.len() as f64 * HEADING_LINE * sizes.tick
 }
 
-/// Maximum of each group, at least 0.
+/// Returns the maximum of each group, at least 0.
 fn most(groups: usize, group: impl Fn(usize) -> usize, values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut most = vec![0.0_f64; groups];
     for (i, value) in values.enumerate() {

@@ -37,8 +37,8 @@ pub fn draw_png(figure: &Figure<'_>) -> Result<Vec<u8>, PlotError> {
     Ok(bytes)
 }
 
-/// Draws figures of the same size as an endless animated PNG with `delay` ms per frame. Viewers without animation
-/// show the first figure. The metadata are those of the first figure.
+/// Draws figures of the same size as an endless animated PNG with `delay` ms per frame. Viewers without animation show the first figure.
+/// The animation has the metadata of the first figure.
 ///
 /// # Errors
 /// If there are no figures, if their sizes differ, or if one cannot be drawn.

@@ -1,4 +1,4 @@
-//! Range of values on an axis.
+//! Range of the values that an axis shows.
 
 use crate::panel::{Panel, Reference, Shape, is_drawable};
 
@@ -8,7 +8,7 @@ pub(crate) const LARGEST: f64 = 1e150;
 const SMALLEST: f64 = 1e-150;
 /// Spans below this fraction of the magnitude are rounding errors: the series is constant.
 const ROUND_OFF: f64 = 1e-13;
-/// Half-range shown around a constant, as a fraction of it.
+/// Half-range shown around a constant value, as a fraction of the value.
 const AROUND_CONSTANT: f64 = 0.05;
 
 /// Smallest and largest value; `None` without values.
@@ -28,12 +28,12 @@ impl Extent {
         }
     }
 
-    /// Whether all values are 0, within the smallest magnitude.
+    /// Returns whether all values are 0, within the smallest magnitude.
     pub(crate) fn is_nothing(self) -> bool {
         self.0.is_some_and(|(low, high)| low.abs().max(high.abs()) <= SMALLEST)
     }
 
-    /// Axis range with margins on both sides, never of zero width; `None` without values.
+    /// Returns the axis range with margins on both sides, never of zero width; `None` without values.
     pub(crate) fn range(self, margin: f64) -> Option<(f64, f64)> {
         let (low, high) = self.0?;
         let size = low.abs().max(high.abs());
@@ -46,7 +46,7 @@ impl Extent {
     }
 }
 
-/// Ranges of a panel in x and y in axis coordinates, including reference lines. Points that cannot be drawn are ignored.
+/// Returns the ranges of a panel in x and y in axis coordinates, including reference lines. Points that cannot be drawn are ignored.
 pub(crate) fn extents(panel: &Panel<'_>) -> (Extent, Extent) {
     let (mut x, mut y) = (Extent::default(), Extent::default());
     for point in panel.series.iter().flat_map(|series| panel.points(series).flatten()) {

@@ -1,6 +1,6 @@
 //! Bitmap backend of plotters: anti-aliased strokes with round joins, and glyphs as outlines.
 //!
-//! It replaces plotters' own bitmap backend, which anti-aliases only lines 1 px wide.
+//! This backend replaces plotters' own bitmap backend, which anti-aliases only lines 1 px wide.
 
 use crate::canvas::{BASELINE, FONT_SIZE, UNITS};
 use crate::font;
@@ -43,12 +43,12 @@ impl Raster {
         Some(Self { pixmap, coverage: Coverage::new((width, height)) })
     }
 
-    /// Red, green and blue of each pixel, row by row.
+    /// Returns the red, green and blue of each pixel, row by row.
     pub(crate) fn rgb(&self) -> Vec<u8> {
         self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
     }
 
-    /// Colour of each pixel, row by row.
+    /// Returns the colour of each pixel, row by row.
     pub(crate) fn colours(&self) -> impl Iterator<Item = Word> + Clone + '_ {
         self.pixmap.data().as_chunks().0.iter().map(|pixel| Word::from_le_bytes(*pixel))
     }

@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 pub struct TimesCurve<'a> {
     /// Name in the legend.
     pub name: &'a str,
-    /// Whether it is the curve for comparison; drawn muted.
+    /// Whether the curve serves only for comparison and is drawn muted.
     pub is_beside: bool,
     /// Bins as lower edge (s), upper edge (s) and count, ascending and adjacent.
     pub bins: Vec<(f64, f64, u64)>,
@@ -24,7 +24,7 @@ pub struct MarkedTimes<'a> {
     pub name: &'a str,
     /// Time of each frame, s.
     pub times: Vec<f64>,
-    /// Index of the histogram that they belong to.
+    /// Index of the histogram to which the marked frames belong.
     pub on: usize,
 }
 
@@ -139,7 +139,7 @@ pub fn times_grid<'a>(title: &str, columns: usize, panels: &[TimesPanel<'a>]) ->
     .with_room_for_legends()
 }
 
-/// Range of the times with counts in some panels.
+/// Returns the range of the times with counts in some panels.
 fn covered<'a, 'b: 'a>(panels: impl Iterator<Item = &'a TimesPanel<'b>>) -> Option<(f64, f64)> {
     let bins = panels.flat_map(|panel| &panel.curves).flat_map(|curve| &curve.bins);
     let counted = bins.filter(|(.., count)| *count > 0);
@@ -147,7 +147,7 @@ fn covered<'a, 'b: 'a>(panels: impl Iterator<Item = &'a TimesPanel<'b>>) -> Opti
     ends.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
 }
 
-/// Outline of a histogram.
+/// Returns the outline of a histogram.
 fn steps<'a>(curve: &TimesCurve<'a>, place: usize) -> Series<'a> {
     let (mut xs, mut ys) = (Vec::new(), Vec::new());
     let height = |count: u64| if count == 0 { NONE } else { count as f64 };
@@ -171,7 +171,7 @@ fn steps<'a>(curve: &TimesCurve<'a>, place: usize) -> Series<'a> {
     Series { style, ..Series::new(curve.name, xs, ys) }
 }
 
-/// Colour of marks at an index after the histograms. Beyond the palette it never repeats a histogram's colour.
+/// Returns the colour of marks at an index after the histograms. Beyond the palette, no colour of a histogram is used again.
 fn mark(place: usize) -> Ink {
     match place.cmp(&Theme::light().palette.len()) {
         Ordering::Less => Ink::Palette(place),
@@ -180,7 +180,7 @@ fn mark(place: usize) -> Ink {
     }
 }
 
-/// Marks on the outline of their histogram.
+/// Returns the marks on the outline of their histogram.
 fn points<'a>(marked: &MarkedTimes<'a>, colour: Ink, curves: &[TimesCurve<'a>]) -> Series<'a> {
     let height = |time: f64| {
         let bins = curves.get(marked.on).map(|curve| &curve.bins[..]).unwrap_or_default();

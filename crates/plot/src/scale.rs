@@ -9,7 +9,7 @@ use stickslip_quantity::{Prefix, takes_prefix};
 pub(crate) struct Scale {
     /// Offset subtracted from the values, in the unit of the axis; not 0 if the values differ only in their last digits.
     offset: f64,
-    /// Ends of the axis minus the offset.
+    /// Ends of the axis, from which the offset is subtracted.
     low: f64,
     high: f64,
     /// Whether the axis has ticks.
@@ -92,12 +92,12 @@ impl Scale {
         Self { offset, low, high, numbered, shown, decades, is_nothing, ticks, label, unit }
     }
 
-    /// Marks the scale as that of values that are all 0: its only tick is 0.
+    /// Marks the scale as a scale of values that are all 0, whose only tick is 0.
     pub(crate) fn of_nothing(self, is_nothing: bool) -> Self {
         Self { is_nothing, ..self }
     }
 
-    /// Whether all values are 0, so that the ends are arbitrary.
+    /// Returns whether all values are 0, so that the ends are arbitrary.
     pub(crate) fn is_of_nothing(&self) -> bool {
         self.is_nothing
     }
@@ -113,27 +113,27 @@ impl Scale {
         Ok(())
     }
 
-    /// Position of an axis coordinate along the axis, 0 to 1.
+    /// Returns the position of an axis coordinate along the axis, 0 to 1.
     pub(crate) fn place(&self, value: f64) -> f64 {
         (value - self.offset - self.low) / (self.high - self.low)
     }
 
-    /// Axis coordinates of both ends; `None` for an empty axis.
+    /// Returns the axis coordinates of both ends; `None` for an empty axis.
     pub(crate) fn range(&self) -> Option<(f64, f64)> {
         self.shown.map(|_| (self.offset + self.low, self.offset + self.high))
     }
 
-    /// Axis coordinate of the upper end.
+    /// Returns the axis coordinate of the upper end.
     pub(crate) fn end(&self) -> f64 {
         self.offset + self.high
     }
 
-    /// Width of the widest tick label, px.
+    /// Returns the width of the widest tick label, px.
     pub(crate) fn label_width(&self, em: f64) -> Result<f64, PlotError> {
         self.ticks.iter().try_fold(0.0, |most: f64, (_, text)| Ok(most.max(Label::plain(text).width(em)?)))
     }
 
-    /// Lengths by which the tick labels extend beyond the start and the end of a horizontal axis, px.
+    /// Returns the lengths by which the tick labels extend beyond the start and the end of a horizontal axis, px.
     pub(crate) fn overhang(&self, width: f64, em: f64) -> Result<(f64, f64), PlotError> {
         self.ticks.iter().try_fold((0.0_f64, 0.0_f64), |(left, right), (place, text)| {
             let half = Label::plain(text).width(em)? / 2.0;
@@ -169,7 +169,7 @@ impl Multiple {
     }
 }
 
-/// Round number near a range that is far from zero; 0 for other ranges.
+/// Returns a round number near a range that is far from zero; 0 for other ranges.
 fn offset(from: f64, to: f64) -> f64 {
     let span = to - from;
     if span >= OFFSET_BELOW * from.abs().max(to.abs()) {
@@ -204,7 +204,7 @@ pub(crate) fn quantity(value: f64, unit: &str, digits: usize) -> String {
     if multiple.unit.is_empty() { text.to_owned() } else { format!("{text} {}", multiple.unit) }
 }
 
-/// Text after a label: offset, and unit in brackets.
+/// Returns the text after a label: offset, and unit in brackets.
 fn unit_text(label: &Label, offset: &str, unit: &str) -> Label {
     let bare = label.is_empty() && offset.is_empty();
     let unit = if unit.is_empty() || bare { unit.to_owned() } else { format!(" ({unit})") };
@@ -212,7 +212,7 @@ fn unit_text(label: &Label, offset: &str, unit: &str) -> Label {
     Label::default().followed_by(offset).followed_by(&unit)
 }
 
-/// Finest ticks at 1, 2 or 5 times a power of ten whose labels do not overlap.
+/// Returns the finest ticks at 1, 2 or 5 times a power of ten whose labels do not overlap.
 fn ticks((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, String)>, PlotError> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {
@@ -243,7 +243,7 @@ fn ticks((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, Str
     Ok(best)
 }
 
-/// Ticks at powers of ten whose labels do not overlap. A range with fewer than two powers also has ticks at 2 and 5 times them.
+/// Returns ticks at powers of ten whose labels do not overlap. A range with fewer than two powers also has ticks at their 2- and 5-fold.
 fn decades((low, high): (f64, f64), along: Along, em: f64) -> Result<Vec<(f64, String)>, PlotError> {
     let span = high - low;
     if !(span > 0.0 && span.is_finite()) {

@@ -52,7 +52,7 @@ pub enum Amount<'a> {
 pub struct SceneBody<'a> {
     /// Name of the body.
     pub name: &'a str,
-    /// Mass, kg; `None` if it has no effect.
+    /// Mass, kg; `None` if the mass has no effect.
     pub mass: Option<f64>,
     /// Mobility along the slide.
     pub x: Mobility<'a>,
@@ -104,9 +104,9 @@ pub enum Press<'a> {
 pub struct SceneLink<'a> {
     /// Name of the link.
     pub name: &'a str,
-    /// Its ends. It pushes the second away from the first, along x or z.
+    /// Ends of the link, which pushes its second end away from its first end, along x or z.
     pub between: [Fixture; 2],
-    /// Whether it acts along z instead of x.
+    /// Whether the link acts along z instead of x.
     pub is_upright: bool,
     /// Type of the link.
     pub kind: LinkKind<'a>,
@@ -119,9 +119,9 @@ pub struct SceneLink<'a> {
 pub enum LinkKind<'a> {
     /// Spring, damper or both in parallel.
     Spring {
-        /// Whether it has a stiffness.
+        /// Whether the link has a stiffness.
         is_stiff: bool,
-        /// Whether it has a damping.
+        /// Whether the link has a damping.
         is_damped: bool,
     },
     /// Piezo stack with its free stroke, m.
@@ -153,7 +153,7 @@ pub struct SceneGravity {
 }
 
 impl SceneGravity {
-    /// Whether the x axis rises at more than 45 degrees. Such a slide is drawn upright, with the z axis to the right.
+    /// Returns whether the x axis rises at more than 45 degrees. Such a slide is drawn upright, with the z axis to the right.
     pub fn is_upright(&self) -> bool {
         // The tolerance excludes 45 degrees with rounding errors.
         self.acceleration > 0.0 && math::sin(self.incline) > std::f64::consts::FRAC_1_SQRT_2 + 1e-9
@@ -182,7 +182,7 @@ pub fn layout_figure(title: &str, scene: &Scene<'_>) -> Figure<'static> {
 }
 
 impl Amount<'_> {
-    /// Whether it is constantly 0.
+    /// Returns whether the amount is constantly 0.
     fn is_nothing(self) -> bool {
         self == Self::Constant(0.0)
     }

@@ -36,7 +36,7 @@ const ROWS: usize = 17;
 const COLUMNS: usize = 3;
 
 /// Draws one panel per contact: time to the right, position of the springs upwards, states in colours. A state extends to the midpoints
-/// between its time and the neighbouring ones. If there are too many contacts, the first are shown and the title gives their number.
+/// between its time and the neighbouring times. If there are too many contacts, the first are shown and the title gives their number.
 pub fn state_figure<'a>(title: &str, maps: &[SpringMap<'a>]) -> Figure<'a> {
     if maps.is_empty() {
         return Figure::without_data(title, NOTHING);

@@ -1,9 +1,9 @@
 //! Anti-aliased strokes with round ends and joins, from the distance of each pixel to the line.
 //!
-//! A pixel is blended by the fraction that the line covers. It is exact for lines along the axes, otherwise accurate
-//! to a few hundredths. For curves of thousands of points this is faster than filling outlines.
+//! A pixel is blended by the fraction that the line covers. The fraction is exact for lines along the axes, otherwise accurate to a few
+//! hundredths. For curves of thousands of points this is faster than filling outlines.
 
-/// Levels of coverage. Each level is a colour of the palette, so there are few.
+/// Number of coverage levels, kept small because each level is a colour of the palette.
 const LEVELS: f32 = 16.0;
 
 /// Coverage of the pixels by one line at a time.
@@ -11,7 +11,7 @@ pub(crate) struct Coverage {
     width: usize,
     /// Coverage levels, row by row; 0 everywhere between two lines.
     levels: Vec<u8>,
-    /// First pixel that the line touches in each row, and the one after the last.
+    /// First pixel that the line touches in each row, and the pixel after the last touched one.
     touched: Vec<(usize, usize)>,
 }
 
@@ -82,7 +82,7 @@ impl Coverage {
 /// Range without pixels.
 const NOWHERE: (usize, usize) = (usize::MAX, 0);
 
-/// Range of the pixels with centres between two positions, of `count` pixels.
+/// Returns the range of the pixels with centres between two positions, of `count` pixels.
 fn within((from, to): (f32, f32), count: usize) -> (usize, usize) {
     // Float-to-integer casts saturate.
     ((from - 0.5).ceil() as usize, (((to - 0.5).floor() + 1.0) as usize).min(count))

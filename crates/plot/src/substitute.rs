@@ -21,7 +21,7 @@ pub struct SubstituteMoment<'a> {
     pub scale: f64,
     /// Indentation by which depths are scaled, m: the largest of all times.
     pub deepest: f64,
-    /// Stretch by which stretches are scaled, m: the gross slip displacement at that indentation, or a larger stretch.
+    /// Stretch by which stretches are scaled, m: the gross slip displacement at the largest indentation, or a larger stretch.
     pub largest_stretch: f64,
     /// Normal and tangential force, N.
     pub forces: (f64, f64),
@@ -135,12 +135,12 @@ const ALL: [SpringCondition; 4] = [
     SpringCondition::Open,
 ];
 
-/// Style of a spring.
+/// Returns the style of a spring.
 fn style(ink: Ink) -> Style {
     Style { ink: Some(ink), dash: Some(Dash::Solid), width: 0.75 }
 }
 
-/// Legend entry and colour of a spring.
+/// Returns the legend entry and colour of a spring.
 fn look(condition: SpringCondition) -> (&'static str, Ink) {
     match condition {
         SpringCondition::Open => ("open", Ink::Muted),
@@ -161,12 +161,12 @@ impl Sketch<'_, '_> {
         RADIUS * x / self.moment.scale
     }
 
-    /// Height of the profile in the drawing above the undeformed surface.
+    /// Returns the height of the profile in the drawing above the undeformed surface.
     fn height(&self, g: f64) -> f64 {
         DEPTH * (g - self.moment.d) / self.moment.deepest
     }
 
-    /// Corners of the indenter.
+    /// Returns the corners of the indenter.
     fn indenter(&self) -> Vec<Point> {
         let points = self.moment.x.iter().zip(self.moment.g);
         let points = points.map(|(x, g)| (self.place(*x) + self.shift, self.height(*g)));
@@ -177,7 +177,7 @@ impl Sketch<'_, '_> {
         profile
     }
 
-    /// Height of the indenter over a position in the drawing.
+    /// Returns the height of the indenter over a position in the drawing.
     fn surface(&self, at: f64) -> f64 {
         let (x, g) = (self.moment.x, self.moment.g);
         let place = (at - self.shift) * self.moment.scale / RADIUS;
@@ -192,7 +192,7 @@ impl Sketch<'_, '_> {
         self.height(g)
     }
 
-    /// Springs from the ground to the indenter, or to their rest length if open.
+    /// Returns the springs from the ground to the indenter, or to their rest length if open.
     fn springs(&self) -> Vec<Series<'static>> {
         let moment = self.moment;
         let stride = moment.x.len().div_ceil(SHOWN).max(1);
@@ -254,14 +254,14 @@ impl Sketch<'_, '_> {
             corners.iter().map(|point| point.0).fold(f64::INFINITY, f64::min)
         };
         if tangential != 0.0 && self.moment.limit > 0.0 && edge.is_finite() {
-            // At the face in the direction of the force; the length is proportional to F_x/(μF_N).
+            // At the face in the direction of the force; the length of the arrow is proportional to F_x/(μF_N).
             let way = tangential.signum() * (14.0 + 36.0 * (tangential / self.moment.limit).abs().min(1.0));
             push((edge, 0.5 * (CUT + TOP)), (edge + way, 0.5 * (CUT + TOP)), "F_x", tangential);
         }
     }
 }
 
-/// Zigzag of a spring from foot to tip, with horizontal turns.
+/// Returns the zigzag of a spring from foot to tip, with horizontal turns.
 fn zigzag(foot: Point, tip: Point) -> Vec<Point> {
     let at = |share: f64, aside: f64| {
         (foot.0 + (tip.0 - foot.0) * share + aside, foot.1 + (tip.1 - foot.1) * share)

@@ -18,7 +18,7 @@ const NAMESPACE: &str = "urn:stickslip";
 /// Minimum figure width for embedded images, px: 500 px per inch at 160 mm.
 const EMBEDDED_WIDTH: u32 = 3200;
 
-/// Draws a figure as an SVG document. The title becomes `<title>`. Title and provenance become entries of `<metadata>`, and short ones
+/// Draws a figure as an SVG document. The title becomes `<title>`. Title and provenance become entries of `<metadata>`, and short entries
 /// also lines of `<desc>`. Texts stay texts in `DejaVu` Sans or a fallback font. Mosaics are embedded images in print resolution.
 ///
 /// # Errors

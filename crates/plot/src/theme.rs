@@ -63,8 +63,7 @@ pub struct Theme {
     pub grid: Colour,
     /// Colours of curves, distinguishable with colour vision deficiencies.
     pub palette: Vec<Colour>,
-    /// Colours of adjacent areas, from inconspicuous to conspicuous. They are distinguishable with colour vision
-    /// deficiencies and in greyscale.
+    /// Colours of adjacent areas, from inconspicuous to conspicuous, distinguishable with colour vision deficiencies and in greyscale.
     pub shades: [Colour; 4],
     /// Fraction of the background colour in pale inks, 0 to 1.
     pub pale: f64,
@@ -117,7 +116,7 @@ const DARK: [Colour; 6] = [
 ];
 
 impl Dash {
-    /// Dash pattern at an index, modulo the number of patterns.
+    /// Returns the dash pattern at an index, modulo the number of patterns.
     pub(crate) fn at(place: usize) -> Self {
         DASHES[place % DASHES.len()]
     }
@@ -135,7 +134,7 @@ impl Theme {
     /// Number of palette colours; later curves repeat them.
     pub(crate) const COLOURS: usize = OKABE_ITO.len();
 
-    /// Dark on white, for print.
+    /// Creates the theme for print: dark on white.
     pub fn light() -> Self {
         Self {
             background: Colour(0xFF, 0xFF, 0xFF),
@@ -157,7 +156,7 @@ impl Theme {
         }
     }
 
-    /// Light on near-black, for screens.
+    /// Creates the theme for screens: light on near-black.
     pub fn dark() -> Self {
         Self {
             background: Colour(0x14, 0x17, 0x1C),
@@ -177,7 +176,7 @@ impl Theme {
         }
     }
 
-    /// The colour of an ink.
+    /// Returns the colour of an ink in this theme.
     pub(crate) fn colour(&self, ink: Ink) -> Colour {
         let palette = |place: usize| match self.palette.len() {
             0 => self.foreground,
@@ -199,7 +198,7 @@ impl Theme {
         }
     }
 
-    /// Colour, dashes and width (px, unscaled) of the curve at an index of its panel.
+    /// Returns the colour, dashes and width (px, unscaled) of the curve at an index of its panel.
     pub(crate) fn stroke(&self, style: Style, place: usize) -> Stroke {
         let ink = style.ink.unwrap_or(Ink::Palette(place));
         let dash = match ink {
@@ -210,17 +209,17 @@ impl Theme {
         Stroke { colour: self.colour(ink), dash: style.dash.unwrap_or(dash), width: self.line * width }
     }
 
-    /// Text colour for an ink, with more contrast than the ink itself.
+    /// Returns the text colour for an ink, with more contrast than the ink itself.
     pub(crate) fn lettering(&self, ink: Ink) -> Colour {
         self.colour(ink).towards(self.foreground, 0.3)
     }
 
-    /// Background of a stretch that is enlarged elsewhere.
+    /// Returns the background colour of an axis range that another panel enlarges.
     pub(crate) fn shaded(&self) -> Colour {
         self.background.towards(self.muted, 0.22)
     }
 
-    /// Stroke of a reference line, by the index of its name in the panel.
+    /// Returns the stroke of a reference line, by the index of its name in the panel.
     pub(crate) fn reference(&self, place: usize) -> Stroke {
         // Solid lines are reserved for curves.
         Stroke { colour: self.muted, dash: Dash::at(1 + place % (DASHES.len() - 1)), width: 0.6 * self.line }

@@ -1,4 +1,4 @@
-//! Reduction of long series to what a picture can show.
+//! Reduction of long series to the points that are visible in a picture.
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,7 +15,7 @@ const STRAIGHT: f64 = 1.0 / 16.0;
 const FEW: usize = 64;
 /// Number of points that are simplified at once, as the cost grows with its square.
 const STRETCH: usize = 256;
-/// Length of the last part of a curve that does not count as retraced, px.
+/// Length of the most recent part of a curve that is not compared for retracing, px.
 const RECENT: f64 = 10.0;
 
 /// Converts a series of points with gaps (`None`) to polylines. Of consecutive points inside one column only the
@@ -75,7 +75,7 @@ fn straightened_line(line: Vec<Point>) -> Vec<Point> {
     kept
 }
 
-/// Squared distance of a point from a line segment, px².
+/// Returns the squared distance of a point from a line segment, px².
 fn square_distance((x, y): Point, ((x0, y0), (x1, y1)): (Point, Point)) -> f64 {
     let (dx, dy) = (x1 - x0, y1 - y0);
     let length = dx * dx + dy * dy;
@@ -84,7 +84,7 @@ fn square_distance((x, y): Point, ((x0, y0), (x1, y1)): (Point, Point)) -> f64 {
     away_x * away_x + away_y * away_y
 }
 
-/// Drops segments that repeat earlier ones within a quarter of a pixel, as in many cycles of a closed loop. Short polylines are unchanged.
+/// Drops segments that repeat earlier segments within a quarter of a pixel, as in cycles of a closed loop. Short polylines are unchanged.
 pub(crate) fn without_repeats(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     if lines.iter().map(Vec::len).sum::<usize>() <= LONG {
         return lines;
@@ -113,8 +113,8 @@ pub(crate) fn without_repeats(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
     kept
 }
 
-/// Parts of polylines that do not retrace the same curve within about a pixel. Otherwise dashes of a second cycle
-/// would fill the gaps of the first.
+/// Returns the parts of polylines that do not retrace the same curve within about a pixel. Otherwise dashes of a second cycle would fill
+/// the gaps of the first.
 pub(crate) fn without_retraced(lines: &[Vec<Point>]) -> Vec<Vec<Point>> {
     let mut trail: HashMap<(i64, i64), f64> = HashMap::new();
     let mut gone = 0.0;
@@ -150,7 +150,7 @@ pub(crate) fn without_retraced(lines: &[Vec<Point>]) -> Vec<Vec<Point>> {
     kept
 }
 
-/// Whether the curve passed this cell or a neighbour before its last [`RECENT`] px.
+/// Returns whether the curve passed this cell or a neighbour before its last [`RECENT`] px.
 fn retraced(trail: &HashMap<(i64, i64), f64>, at: Point, gone: f64) -> bool {
     let (x, y) = cell(at);
     let near = |dx: i64, dy: i64| trail.get(&(x + dx, y + dy)).is_some_and(|before| gone - before > RECENT);
@@ -161,7 +161,7 @@ fn cell((x, y): Point) -> (i64, i64) {
     (x.floor() as i64, y.floor() as i64)
 }
 
-/// Total length of polylines, px.
+/// Returns the total length of polylines, px.
 pub(crate) fn length(lines: &[Vec<Point>]) -> f64 {
     let way = |pair: &[Point]| math::hypot(pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
     lines.iter().flat_map(|line| line.windows(2)).map(way).sum()

@@ -53,7 +53,7 @@ pub struct Trajectory<'a> {
     /// Gross slip displacement `u_c`, m, drawn with both signs. For contacts that oscillate about u = 0; in a drive u
     /// drifts by a step length per period.
     pub gross_slip: Option<f64>,
-    /// Whether the slide rises at more than 45 degrees, which the axis label then says.
+    /// Whether the slide rises at more than 45 degrees; the axis label then states this.
     pub is_upright: bool,
 }
 
@@ -115,7 +115,7 @@ pub fn trajectory_figure<'a>(title: &str, trajectory: &Trajectory<'a>) -> Figure
         .with_room_for_legends()
 }
 
-/// Distinct names of tracks, in order of appearance.
+/// Returns the distinct names of tracks, in order of appearance.
 fn names<'a>(tracks: impl Iterator<Item = &'a Track<'a>>) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
     for track in tracks {

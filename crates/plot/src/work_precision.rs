@@ -20,15 +20,15 @@ pub struct WorkCurve<'a> {
     pub place: usize,
 }
 
-/// Fewest points that have a slope.
+/// Minimum number of points for which a slope is fitted.
 const LEAST: usize = 3;
-/// A steeper curve has no slope: its error does not depend on the work.
+/// Maximum slope that is fitted. The error of a steeper curve does not depend on the work.
 const STEEPEST: f64 = 20.0;
 /// Points within this factor of the smallest error may be limited by rounding or by the number of springs.
 const FLOOR: f64 = 5.0;
 
-/// Error over run time (left) and over force evaluations (right) on logarithmic axes. Each curve has the runs that no other run of its
-/// method beats in both error and work, its name, and a dashed line of its slope with the number. `error` labels the vertical axis.
+/// Draws error over run time (left) and over force evaluations (right) on logarithmic axes. Each curve connects the Pareto-optimal runs of
+/// a method. A dashed line with a number shows its slope. `error` labels the vertical axis.
 pub fn work_precision_figure<'a>(title: &str, error: &str, curves: &[WorkCurve<'a>]) -> Figure<'a> {
     let axis = |label: &str, unit: &str| Axis { logarithmic: true, ..Axis::new(Label::plain(label), unit) };
     let panel = |x: Axis, work: fn(&WorkCurve<'a>) -> &'a [f64]| {
@@ -48,7 +48,7 @@ pub fn work_precision_figure<'a>(title: &str, error: &str, curves: &[WorkCurve<'
         panel(axis("evaluations per simulated second", ""), |curve| curve.evaluations),
     ];
     if panels[0].series.is_empty() {
-        return Figure::without_data(title, "no run has an error");
+        return Figure::without_data(title, "no run has a known error");
     }
     let arrangement = Arrangement::Row;
     Figure {
@@ -60,7 +60,7 @@ pub fn work_precision_figure<'a>(title: &str, error: &str, curves: &[WorkCurve<'
     }
 }
 
-/// Runs that no other run beats in both work and error, by ascending work. Values that are not above 0 are left out.
+/// Returns the Pareto-optimal runs in work and error, by ascending work. Values that are not above 0 are left out.
 fn front(work: &[f64], error: &[f64]) -> Vec<(f64, f64)> {
     let runs = work.iter().copied().zip(error.iter().copied());
     let mut runs: Vec<(f64, f64)> = runs.filter(|(work, error)| *work > 0.0 && *error > 0.0).collect();
@@ -74,7 +74,7 @@ fn front(work: &[f64], error: &[f64]) -> Vec<(f64, f64)> {
     runs
 }
 
-/// The curve of a front, and the line of its slope.
+/// Returns the curve of Pareto-optimal runs, and the line of its slope.
 fn series<'a>(place: usize, front: &[(f64, f64)]) -> Vec<Series<'a>> {
     let style = |dash, width| Style { ink: Some(Ink::Palette(place)), dash: Some(dash), width };
     let line = |points: &[(f64, f64)], style| {
@@ -86,7 +86,7 @@ fn series<'a>(place: usize, front: &[(f64, f64)]) -> Vec<Series<'a>> {
     std::iter::once(curve).chain(fit).collect()
 }
 
-/// Name and slope at the end with the most work.
+/// Returns the name and the slope of a curve as a note at its end with the most work.
 fn name(curve: &WorkCurve<'_>, front: &[(f64, f64)]) -> Option<Note> {
     let end = *front.last()?;
     let slope =
@@ -95,7 +95,7 @@ fn name(curve: &WorkCurve<'_>, front: &[(f64, f64)]) -> Option<Note> {
     Some(Note { lines: vec![line], about: [end; 2], on: None, ink: Some(Ink::Palette(curve.place)) })
 }
 
-/// Exponent with which the error changes with the work, by least squares of the logarithms above the floor, and both ends of that line.
+/// Returns the exponent of the error over the work, by least squares of the logarithms above the floor, and both ends of the fitted line.
 fn slope(points: &[(f64, f64)]) -> Option<(f64, [(f64, f64); 2])> {
     let least = points.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
     let above = points.iter().filter(|(_, error)| *error > FLOOR * least);

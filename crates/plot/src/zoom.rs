@@ -1,4 +1,4 @@
-//! Enlarged time range next to or below the whole.
+//! Enlarged time range next to or below the panel of the whole time range.
 
 use crate::figure::{Arrangement, Figure};
 use crate::layout::{Area, Placed};
@@ -12,7 +12,7 @@ use plotters_backend::DrawingBackend;
 const LEAST: f64 = 5.0;
 
 /// Places each panel of `part` right of the same panel of `whole`, as an enlargement of the range `of`. The range is shaded in the left
-/// panels; `heading` stands above the right ones. Returns `whole` unchanged unless both are columns with equally many panels.
+/// panels; `heading` stands above the right panels. Returns `whole` unchanged unless both are columns with equally many panels.
 pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), heading: &str) -> Figure<'a> {
     let is_column = |figure: &Figure<'_>| figure.arrangement == Arrangement::Column { share_x: true };
     if whole.panels.len() != part.panels.len() || !is_column(&whole) || !is_column(&part) {
@@ -42,8 +42,8 @@ pub fn enlarged_beside<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), 
     Figure { panels, arrangement: Arrangement::Columns { columns: 2 }, ..whole }.with_room_for_legends()
 }
 
-/// Places the single panel of `part` below that of `whole`, as an enlargement of the range `of` with a heading.
-/// Returns `whole` unchanged unless both have exactly one panel.
+/// Places the single panel of `part` below the panel of `whole`, as an enlargement of the range `of` with a heading. Returns `whole`
+/// unchanged unless both have exactly one panel.
 pub fn enlarged_below<'a>(whole: Figure<'a>, part: Figure<'a>, of: (f64, f64), heading: &str) -> Figure<'a> {
     let (width, height) = whole.size;
     let mut panels = whole.panels;

@@ -5,7 +5,7 @@ use crate::room::room;
 /// Maximum number of points.
 const MOST: u64 = 4000;
 
-/// Reduced time history of a loop. The points are equally spaced in the planned number of frames.
+/// Reduced time history of a loop. The points are equally spaced over the planned number of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     every: u64,
@@ -20,7 +20,7 @@ pub struct Film {
     /// Maximum wake-up latency since the previous point, ns.
     pub latency: Vec<f64>,
     worst: (u64, u64),
-    /// Planned number of points.
+    /// Number of points of a complete loop.
     points: usize,
 }
 
@@ -42,7 +42,7 @@ impl Film {
         }
     }
 
-    /// Adds a frame with its index from 0, and its end time, s. `taken` is its latency and its execution time, ns.
+    /// Adds the frame with the index `frame`, from 0, that ends at `time`, s. `taken` contains its latency and execution time, ns.
     pub(crate) fn look(
         &mut self,
         frame: u64,

@@ -2,10 +2,10 @@
 
 use crate::room::touched;
 
-/// Range of the fine bins, ns, and their width, ns.
+/// Upper limit of the fine bins, ns, and width of a fine bin, ns.
 const FINE: u64 = 100_000;
 const FINE_BIN: u64 = 10;
-/// Range of the coarse bins, ns, and their width, ns. Longer durations share one bin.
+/// Upper limit of the coarse bins, ns, and width of a coarse bin, ns. Longer durations share one bin.
 const COARSE: u64 = 20_000_000;
 const COARSE_BIN: u64 = 1_000;
 
@@ -56,19 +56,19 @@ impl Histogram {
         self.count
     }
 
-    /// Returns the longest duration, ns; 0 if there is none.
+    /// Returns the longest counted duration, ns, or 0 if nothing was counted.
     pub fn worst(&self) -> u64 {
         self.worst
     }
 
-    /// Returns the mean duration, ns; 0 if there is none.
+    /// Returns the mean of the counted durations, ns, or 0 if nothing was counted.
     pub fn mean(&self) -> f64 {
         if self.count == 0 { 0.0 } else { self.sum as f64 / self.count as f64 }
     }
 
     /// Returns a quantile, ns: the upper edge of the bin below which a fraction `share` of the durations lies.
     ///
-    /// The result is at most the longest duration. For 0.9999 and fewer than 10 000 durations it is the longest one.
+    /// The result is at most the longest duration. For a `share` of 0.9999 and fewer than 10 000 durations, it is the longest duration.
     pub fn quantile(&self, share: f64) -> u64 {
         let wanted = (share * self.count as f64).ceil() as u64;
         let mut seen = 0;
@@ -85,7 +85,7 @@ impl Histogram {
 
     /// Returns logarithmic bins as (lower edge, upper edge, count), edges in ns, with `per_decade` bins per decade from 10 ns on.
     ///
-    /// The last bin contains all durations above 20 ms. Where a logarithmic bin is narrower than the counting bins, some bins are empty.
+    /// The last bin contains all durations above 20 ms. Logarithmic bins that are narrower than the bins of the histogram may be empty.
     pub fn decades(&self, per_decade: u32) -> Vec<(f64, f64, u64)> {
         let edge = |bin: u32| FINE_BIN as f64 * math::powf(10.0, f64::from(bin) / f64::from(per_decade));
         let last = (f64::from(per_decade) * math::log10(COARSE as f64 / FINE_BIN as f64)).ceil() as u32;
@@ -101,7 +101,7 @@ impl Histogram {
         bins
     }
 
-    /// Returns ten bins per decade as in [`Self::decades`], with edges in s.
+    /// Returns the bins of [`Self::decades`] with ten bins per decade and edges in s.
     pub fn tenths(&self) -> Vec<(f64, f64, u64)> {
         let seconds = |(low, high, count): (f64, f64, u64)| (1e-9 * low, 1e-9 * high, count);
         self.decades(10).into_iter().map(seconds).collect()

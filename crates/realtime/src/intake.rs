@@ -1,14 +1,13 @@
-//! Validation of received input packets. In every frame the inputs have valid values.
+//! Validation of received input packets. The validation guarantees valid input values in every frame.
 //!
-//! * A packet is refused and counted if its length, format or scenario number is wrong. The same holds for values or time stamps that are
-//!   not finite or out of range. The last valid values remain.
+//! * A packet is refused and counted if its length, format or scenario number is wrong. Packets with values or time stamps that are not
+//!   finite or out of range are refused, too. The last valid values remain.
 //! * The sequence numbers of a client must ascend. Packets with the same or a smaller number are refused and counted. Gaps are allowed.
-//! * Of several accepted packets within a frame the last one counts. The others are counted as superseded.
-//! * The first client with an accepted packet owns the inputs until it has been silent for the patience. Packets of other clients are
-//!   refused
-//!   and counted. Afterwards the first accepted packet of any client takes over, with any sequence number.
-//! * A frame without an accepted packet is stale. The last values are held. After the allowed silence they are still held, return to their
-//!   initial values, or the loop ends, depending on [`Silence`].
+//! * Of several accepted packets within a frame, the last packet is used. The other packets are counted as superseded.
+//! * The first client with an accepted packet owns the inputs until it has been silent for a given number of frames. Packets of other
+//!   clients are refused and counted. Afterwards any client can take over by a valid packet with any sequence number.
+//! * A frame without an accepted packet is stale and uses the last values. After too many stale frames, [`Silence`] determines whether
+//!   these values are held, the initial values are restored, or the loop ends.
 
 use crate::pace::Stop;
 use crate::plant::{Input, Takes};
@@ -24,11 +23,11 @@ pub enum Client {
     Address(SocketAddr),
     /// Client that writes into shared memory, with its client number.
     Writer(u64),
-    /// The only possible client.
+    /// The only possible client, for sources such as lines of text.
     Only,
 }
 
-/// Action after a long time without an accepted packet.
+/// Action of the loop after a long time without an accepted packet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Silence {
     /// The last values are held.
@@ -45,7 +44,7 @@ pub enum Silence {
 pub struct Patience {
     /// Action after `silent_after` frames without an accepted packet.
     pub silence: Silence,
-    /// Number of frames without an accepted packet until this action.
+    /// Number of frames without an accepted packet until the action `silence` is taken.
     pub silent_after: u64,
     /// Number of frames without an accepted packet until another client may take over.
     pub owner: u64,
@@ -85,7 +84,7 @@ pub struct Received {
 }
 
 impl Received {
-    /// Returns the numbers of refused packets as text. Returns `None` if none was refused.
+    /// Returns the numbers of refused packets as text. Returns `None` if no packet was refused.
     #[must_use]
     pub fn refused(&self) -> Option<String> {
         let counts = [
@@ -103,7 +102,7 @@ impl Received {
     }
 }
 
-/// Validates packets and holds the values for the next frame.
+/// Validator of packets, with the input values for the next frame.
 #[derive(Debug)]
 pub struct Intake {
     scenario: u64,
@@ -113,9 +112,9 @@ pub struct Intake {
     values: Vec<f64>,
     candidate: Vec<f64>,
     owner: Option<(Client, u64)>,
-    /// Number of accepted packets since the last frame.
+    /// Number of packets accepted since the last frame.
     fresh: u64,
-    /// Number of frames since the last accepted packet.
+    /// Number of stale frames since the last accepted packet.
     stale: u64,
     received: Received,
 }
@@ -143,12 +142,12 @@ impl Intake {
         self.scenario
     }
 
-    /// Returns the number of values.
+    /// Returns the number of input values.
     pub fn width(&self) -> usize {
         self.initial.len()
     }
 
-    /// Returns the values for the next frame.
+    /// Returns the input values for the next frame.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -168,7 +167,7 @@ impl Intake {
         self.owner.map(|(client, _)| client)
     }
 
-    /// Returns the owner, unless another client may take over.
+    /// Returns the client that owns the inputs, unless another client may take over.
     pub(crate) fn holder(&self) -> Option<Client> {
         self.owner().filter(|_| !self.has_lapsed())
     }
@@ -178,7 +177,7 @@ impl Intake {
         self.stale >= self.patience.owner
     }
 
-    /// Validates a packet.
+    /// Validates a packet and stores its values if it is accepted.
     pub fn offer(&mut self, client: Client, bytes: &[u8]) {
         let mut candidate = std::mem::take(&mut self.candidate);
         let stamp = wire::decode(bytes, self.scenario, &mut candidate);
@@ -192,7 +191,7 @@ impl Intake {
         self.judge(client, stamp, candidate);
     }
 
-    /// Counts a refused packet, as one of wrong length or as one of another format.
+    /// Counts a refused packet: as a packet of wrong length if `length` is true, otherwise as a packet of another format.
     pub(crate) fn note_foreign(&mut self, length: bool) {
         *(if length { &mut self.received.wrong_length } else { &mut self.received.foreign }) += 1;
     }
@@ -202,18 +201,18 @@ impl Intake {
         self.received.out_of_range += count;
     }
 
-    /// Counts accepted packets that a later one in the same frame replaced.
+    /// Counts accepted packets that were replaced by a later packet in the same frame.
     pub(crate) fn note_superseded(&mut self, count: u64) {
         self.received.good += count;
         self.received.superseded += count;
     }
 
-    /// Counts a frame in which the shared memory was being written at every attempt to read it.
+    /// Counts a frame in which every attempt to read the shared memory met an unfinished write.
     pub(crate) fn note_torn(&mut self) {
         self.received.torn_frames += 1;
     }
 
-    /// Sets values that were validated before.
+    /// Sets input values that have already been validated.
     pub(crate) fn impose(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);
         (self.fresh, self.received.good) = (1, self.received.good + 1);
@@ -252,7 +251,7 @@ impl Intake {
     /// Ends a frame and applies the action for silence.
     ///
     /// # Errors
-    /// [`Stop::Silence`] if the silence exceeds its limit and its action is to stop.
+    /// [`Stop::Silence`] if the silence exceeds its limit and the action for silence is to stop.
     pub fn settle(&mut self) -> Result<(), Stop> {
         let received = &mut self.received;
         received.superseded += self.fresh.saturating_sub(1);

@@ -1,15 +1,15 @@
 //! Real-time simulation of drives: one frame per clock tick, with inputs and outputs over UDP or shared memory.
 //!
-//! [`plant`] is the simulated drive, advanced frame by frame. [`pace`] is the loop, with absolute deadlines on the monotonic clock and
-//! [`Histogram`]s of its timing. [`session`] connects them with a [`Source`] of inputs, the [`Intake`] that validates them, [`Sink`]s of
-//! outputs, and tapes that record them. [`report`] summarises a session.
+//! [`plant`] is the simulated drive, advanced frame by frame. [`pace`] is the real-time loop, with absolute deadlines on the monotonic
+//! clock and [`Histogram`]s of its timing. [`session`] connects both with a [`Source`] of inputs, the [`Intake`] that validates them,
+//! [`Sink`]s of outputs, and files that record both. [`report`] summarises a session.
 //!
-//! The loop allocates no memory, takes no lock and writes no log. Its only system calls are the sleep and, with UDP, sending and receiving.
+//! The loop allocates no memory, takes no lock and writes no log. Its system calls are the sleep and, with UDP, sending and receiving.
 //!
 //! In reading order: [`plant`], [`pace`], [`histogram`], [`worst`]; [`wire`] (packet format), [`intake`], [`source`], [`sink`], [`region`]
 //! (shared memory) with `seqlock` and [`memory`]; [`tape`] with `ring`, [`film`]; [`session`], [`probe`], [`report`]; [`system`].
 //!
-//! In the workspace, only this crate contains unsafe code. It is in [`memory`] and [`system`], and each use is justified.
+//! In the workspace, only this crate contains unsafe code. All unsafe code is in [`memory`] and [`system`], and each use is justified.
 
 pub mod film;
 pub mod histogram;

@@ -1,6 +1,6 @@
 //! Shared memory: a memory-mapped file of 64-bit words that other processes write, too.
 //!
-//! Any word may have any value at any time. Therefore no length and no address is read from it.
+//! Any word may have any value at any time. Therefore no length and no address is read from the shared memory.
 
 #[cfg(target_os = "linux")]
 mod bus;
@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use thiserror::Error;
 
-/// Error for shared memory.
+/// Error of creating or using shared memory.
 #[derive(Debug, Error)]
 pub enum MemoryError {
-    /// The file contains something else.
+    /// The existing file is not a shared memory of this program.
     #[error("{}: this file is not a shared memory of stickslip; give another name", .0.display())]
     Foreign(PathBuf),
     /// Another run uses the file.
@@ -38,10 +38,10 @@ pub enum MemoryError {
     },
 }
 
-/// Memory-mapped words that other processes may read and write at any time. The file is removed when this value is dropped.
+/// Memory-mapped words that other processes may read and write at any time. Dropping this value removes the file.
 ///
-/// The word behind the mapped words contains the mark. If another process truncates the file, this word becomes 0. The system fills the
-/// rest of a page with zeros. A missing page is replaced by zeros when it is accessed (`bus`); otherwise the access would end the process.
+/// The file has one more word, which contains the mark. If another process truncates the file, this word becomes 0. The operating system
+/// fills the rest of a page with zeros. Accessing a missing page would end the process, so `bus` replaces it by zeros.
 pub struct Shared {
     path: PathBuf,
     mark: u64,
@@ -49,12 +49,12 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Creates the file and maps `length` words of it, all 0.
+    /// Creates a file with words of value 0 and maps `length` of them.
     ///
-    /// Only the user of the process can access the file. A file that a killed run has left is reused; any other existing file is an error.
+    /// Only the user of the process can access the file. A file left by a killed run is reused. Any other existing file is an error.
     ///
     /// # Errors
-    /// The file contains something else or is in use, or the operating system returns an error.
+    /// The file is not a shared memory of this program or is in use, or the operating system returns an error.
     pub fn make(path: &Path, mark: u64, length: usize) -> Result<Self, MemoryError> {
         let shared =
             Self { path: path.to_owned(), mark, mapping: imp::Mapping::make(path, mark, length + 1)? };
@@ -62,7 +62,7 @@ impl Shared {
         Ok(shared)
     }
 
-    /// Returns the words.
+    /// Returns the mapped words.
     pub fn words(&self) -> &[AtomicU64] {
         let all = self.mapping.words();
         &all[..all.len() - 1]
@@ -73,7 +73,7 @@ impl Shared {
         &all[all.len() - 1]
     }
 
-    /// Returns whether the file still has its length and the word behind the end is unchanged.
+    /// Returns whether the file still has its length and the mark after the mapped words is unchanged.
     pub fn is_whole(&self) -> bool {
         self.end().load(Ordering::Relaxed) == self.mark
     }
@@ -86,8 +86,8 @@ impl Shared {
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        // Clients that have mapped the file keep their mapping. A file that cannot be removed is reused by the next run. If another file
-        // has taken the path, it is not removed.
+        // Clients that have mapped the file keep their mapping. A file that cannot be removed is reused by the next run. Another file at
+        // this path is not removed.
         if self.mapping.is_at(&self.path) {
             let _ = std::fs::remove_file(&self.path);
         }
@@ -111,9 +111,9 @@ mod imp {
     pub(super) struct Mapping {
         start: NonNull<AtomicU64>,
         length: usize,
-        /// Handles accesses to a truncated file. It is dropped before the mapping.
+        /// Handler of accesses to a truncated file. The handler must be dropped before the mapping.
         guard: Option<Guard>,
-        /// Holds the file lock.
+        /// Open file, which holds the file lock.
         file: File,
     }
 
@@ -132,7 +132,7 @@ mod imp {
             if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {
                 break;
             }
-            // Another run may have removed the file between opening and locking. Then no client could find it.
+            // Another run may have removed the file between opening and locking. No client could find a removed file.
             if is_at(&file, path) {
                 return Ok(file);
             }
@@ -140,7 +140,7 @@ mod imp {
         Err(MemoryError::InUse(path.to_owned()))
     }
 
-    /// Returns whether an open file is the one at a path.
+    /// Returns whether an open file is still the file at a path.
     fn is_at(file: &File, path: &Path) -> bool {
         let [open, there] = [file.metadata(), std::fs::symlink_metadata(path)];
         matches!((open, there), (Ok(open), Ok(there)) if (open.dev(), open.ino()) == (there.dev(), there.ino()))
@@ -176,7 +176,7 @@ mod imp {
             Ok(mapping)
         }
 
-        /// Returns whether the mapped file is the one at a path.
+        /// Returns whether the mapped file is still the file at a path.
         pub(super) fn is_at(&self, path: &Path) -> bool {
             is_at(&self.file, path)
         }
@@ -216,7 +216,7 @@ mod imp {
 mod imp {
     use super::{AtomicU64, MemoryError, Path};
 
-    /// Shared memory is not supported on this system.
+    /// Placeholder on operating systems without support for shared memory.
     pub(super) enum Mapping {}
 
     impl Mapping {
@@ -271,7 +271,7 @@ mod tests {
             std::fs::write(&path, bytes).unwrap();
             Shared::make(&path, MARK, 8).is_ok()
         };
-        // Killed before the mark was written, with other words written already.
+        // State of a file whose run was killed before it wrote the mark, but after it wrote other words.
         let mut head = [0; 72];
         head[20] = 1;
         assert!(after(&head) && after(&[]) && after(&MARK.to_ne_bytes()));

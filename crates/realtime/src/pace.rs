@@ -1,9 +1,9 @@
 //! The real-time loop: one frame after each deadline, with timing statistics.
 //!
-//! Deadlines are multiples of the period on the monotonic clock. A delayed frame therefore does not delay later ones. Frame k is computed
-//! after its deadline with the inputs available at this time. Its outputs are the state at the end of the frame. Two durations are
-//! recorded: the latency from the deadline to the wake-up, and the execution time from then until the outputs are sent. A frame that ends
-//! after the next deadline is an overrun.
+//! Deadlines are multiples of the period on the monotonic clock. A delayed frame therefore does not delay later frames. Frame k is computed
+//! after its deadline with the inputs available at this time. The outputs are the state at the end of the frame. Two durations are
+//! recorded: the latency from the deadline to the wake-up, and the execution time from the wake-up until the outputs are sent. A frame that
+//! ends after the next deadline is an overrun.
 
 use crate::histogram::Histogram;
 use crate::plant::{PlantError, STEPS, Work};
@@ -13,12 +13,12 @@ use crate::worst::{Slow, Worst};
 use std::path::PathBuf;
 use stickslip_drive::RunError;
 
-/// Time from the start to the first deadline, ns.
+/// Time from the start of the loop to the first deadline, ns.
 const AHEAD: u64 = 2_000_000;
-/// Maximum duration of a single sleep, ns. Interrupts are checked after each one.
+/// Maximum duration of a single sleep, ns. Interrupts are checked after each sleep.
 const NAP: u64 = 50_000_000;
 const NANO: f64 = 1e9;
-/// Number of bins for the steps per frame. The last bin contains all larger numbers.
+/// Number of bins for the number of time steps per frame. The last bin contains all larger numbers.
 const MOST_STEPS: usize = 4096;
 
 /// Action after an overrun: a frame that ends after the next deadline.
@@ -26,8 +26,8 @@ const MOST_STEPS: usize = 4096;
 pub enum Overrun {
     /// Missed deadlines are skipped, and the next frame waits for the next future deadline.
     ///
-    /// All frames are computed with the inputs of their own time. Simulated time falls behind the clock by one period per skipped deadline.
-    /// Catching up is not attempted, because the controller would not see the frames in between.
+    /// Every frame uses the inputs available when it is computed. Simulated time falls behind the clock by one period per skipped deadline.
+    /// The loop does not catch up, because the controller would not see the frames in between.
     #[default]
     Skip,
     /// The loop ends.
@@ -41,25 +41,25 @@ pub struct Pace {
     pub period: f64,
     /// Action after an overrun. `None` runs frames as fast as possible, without deadlines.
     pub overrun: Option<Overrun>,
-    /// Time before each deadline at which the loop wakes and polls the clock, s. It should exceed the wake-up latency of the system. With 0
-    /// the loop sleeps until the deadline.
+    /// Time before each deadline at which the loop wakes and polls the clock, s. The value should exceed the wake-up latency of the system.
+    /// With 0 the loop sleeps until the deadline.
     pub spin: f64,
 }
 
-/// The work of the loop in each frame.
+/// Work that the loop performs in each frame.
 pub trait Cycle {
     /// Computes a frame.
     ///
     /// # Errors
-    /// The reason why the loop ends. The frame then does not count.
+    /// The reason why the loop ends. The failed frame is not counted.
     fn act(&mut self, frame: u64) -> Result<Work, Stop>;
 
-    /// Returns whether the loop continues. It is called while the loop waits for a distant deadline.
+    /// Returns whether the loop continues. The loop calls this method while it waits for a distant deadline.
     fn goes_on(&self) -> bool {
         true
     }
 
-    /// Receives the timing of a frame and the number of deadlines skipped after it. It does not count as time of a frame.
+    /// Receives the timing of a frame and the number of deadlines skipped after it. The call itself is not part of the measured time.
     fn timed(&mut self, frame: &Slow, left_out: u64) {
         let _ = (frame, left_out);
     }
@@ -72,7 +72,7 @@ pub enum Stop {
     Plant(PlantError),
     /// The user interrupted the loop.
     Interrupted,
-    /// An overrun occurred, and its action is to stop.
+    /// An overrun occurred, and the action for overruns is to stop.
     Overrun,
     /// No input was accepted for longer than allowed.
     Silence,
@@ -96,7 +96,7 @@ pub struct Timing {
     pub latency: Histogram,
     /// Execution times from wake-up to the end of the frame, ns.
     pub execution: Histogram,
-    /// Number of overruns.
+    /// Number of overruns: frames that ended after the next deadline.
     pub overruns: u64,
     /// Number of skipped deadlines.
     pub left_out: u64,
@@ -128,7 +128,7 @@ impl Timing {
         }
     }
 
-    /// Returns the median number of time steps per frame. Returns `u64::MAX` if it is beyond the bins.
+    /// Returns the median number of time steps per frame. Returns `u64::MAX` if the median is in the last bin.
     pub fn usual(&self) -> u64 {
         let mut seen = 0;
         let half = self.frames().div_ceil(2);
@@ -162,7 +162,7 @@ impl Default for Timing {
     }
 }
 
-/// Deadlines on the clock, ns.
+/// Equally spaced deadlines on the clock, ns.
 #[derive(Debug, Clone, Copy)]
 struct Grid {
     start: u64,
@@ -171,13 +171,13 @@ struct Grid {
 }
 
 impl Grid {
-    /// Returns the deadline of a slot, ns.
+    /// Returns the deadline with the index `slot`, ns.
     fn at(&self, slot: u64) -> u64 {
-        // Exact to 1 ns for loops of up to a hundred days.
+        // The result is exact to 1 ns for loops of up to a hundred days.
         self.start + (slot as f64 * self.period).round() as u64
     }
 
-    /// Returns the first slot, at least `least`, whose deadline is not before `moment`.
+    /// Returns the smallest index from `least` on whose deadline is not before `moment`.
     fn after(&self, moment: u64, least: u64) -> u64 {
         let about = (moment.saturating_sub(self.start) as f64 / self.period) as u64;
         let mut slot = about.max(least);
@@ -200,10 +200,10 @@ fn wait_until(moment: u64, cycle: &impl Cycle) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Runs frames until the last one or until a stop. Apart from the cycle, it allocates no memory and makes no system calls but the sleep.
+/// Runs `frames` frames unless the loop stops earlier. Apart from `cycle`, it allocates no memory and makes no system call but the sleep.
 ///
 /// # Errors
-/// The reason for an early end. `timing` contains the statistics up to it.
+/// The reason for an early end. `timing` then contains the statistics up to this end.
 pub fn run(pace: &Pace, frames: u64, cycle: &mut impl Cycle, timing: &mut Timing) -> Result<(), Stop> {
     let start = now() + if pace.overrun.is_some() { AHEAD } else { 0 };
     let grid = Grid { start, period: NANO * pace.period };

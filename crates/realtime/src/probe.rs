@@ -9,13 +9,13 @@ use stickslip_drive::{Model, Plan, State, Stepper};
 
 /// Maximum duration of a measurement, ns.
 const LONGEST: u64 = 500_000_000;
-/// Numbers of springs of the measured spring rows.
+/// Numbers of springs per contact for which the frame time is measured.
 const ROWS: [usize; 2] = [64, 256];
-/// Number of repetitions for each row. The smallest result is used, so that short disturbances have no effect.
+/// Number of repetitions for each number of springs. The smallest result is used, so that short disturbances have no effect.
 const TURNS: usize = 3;
 /// Minimum number of frames for a 99 % quantile.
 const LEAST: u64 = 100;
-/// Accuracy of the frames that replace the event-driven integrator for spring rows. The number of events depends on the row.
+/// Accuracy of the stepper `frames` for spring rows. This stepper replaces the event-driven one, whose number of events depends on the row.
 const ACCURACY: f64 = 1e-3;
 
 /// Execution times of frames without pacing.
@@ -31,7 +31,7 @@ pub struct Probe {
     pub worst: u64,
 }
 
-/// Cycle with constant inputs.
+/// Cycle of a loop that computes a plant with constant inputs.
 struct Steady<'a, P> {
     plant: &'a mut P,
     inputs: &'a [f64],
@@ -49,7 +49,7 @@ impl<P: Plant> Cycle for Steady<'_, P> {
     }
 }
 
-/// Computes frames of a plant without waiting, up to `frames` or the maximum duration.
+/// Computes frames of a plant without waiting, until `frames` frames or the maximum duration are reached.
 ///
 /// Returns `None` if no frame was completed, or if the observer ended the measurement.
 pub fn probe<P: Plant>(
@@ -61,12 +61,12 @@ pub fn probe<P: Plant>(
 ) -> Option<Probe> {
     let pace = Pace { period: 1.0, overrun: None, spin: 0.0 };
     let mut cycle = Steady { plant, inputs, outputs: vec![0.0; outputs], end: u64::MAX, observer };
-    // The first frame starts the run with cold caches.
+    // The first frame is not measured, because it starts the run with cold caches.
     pace::run(&pace, 1, &mut cycle, &mut Timing::new()).ok()?;
     // The time limit starts after the first frame, so that at least one frame is measured.
     cycle.end = now() + LONGEST;
     let mut timing = Timing::new();
-    // The measurement is valid up to any early end.
+    // If the loop ends early, the measurement of the completed frames is valid.
     let _ = pace::run(&pace, frames, &mut cycle, &mut timing);
     let execution = &timing.execution;
     (timing.frames() > 0 && observer.goes_on()).then(|| Probe {
@@ -80,9 +80,9 @@ pub fn probe<P: Plant>(
 /// Execution times of frames with a row of springs in each contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowsProbe {
-    /// Number of springs of each row, and the 99 % quantile of the execution time, ns.
+    /// Number of springs per contact, and 99 % quantile of the execution time of a frame, ns, for each measurement.
     pub measured: Vec<(usize, u64)>,
-    /// Number of springs whose frame time equals the period, by linear extrapolation.
+    /// Number of springs per contact for which the frame time equals the period, by linear extrapolation.
     ///
     /// `None` if the frame time does not increase with the number of springs, or exceeds the period for any number.
     pub fits: Option<u64>,
@@ -131,7 +131,7 @@ pub fn rows(
     Some(RowsProbe { measured, fits })
 }
 
-/// Returns the position at which the line through two points has a value. Returns `None` if it is below 1.
+/// Returns the position at which the line through two points has the value `value`. Returns `None` if the position is below 1.
 fn line(points: &[(usize, u64)], value: f64) -> Option<u64> {
     let [(n, a), (m, b)] = points[..] else { return None };
     let slope = (b as f64 - a as f64) / (m as f64 - n as f64);

@@ -22,11 +22,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Mark at the start of the memory.
+/// Mark at the start of the shared memory.
 const MARK: u64 = u64::from_le_bytes(*b"sslpshm1");
 /// Number of words of the header, and of a cache line. Records start at a cache line.
 const LINE: usize = 8;
-/// Number of words of a record before its values.
+/// Number of words of a record before the values of its packet.
 const RECORD: usize = 2 + HEAD_WORDS;
 /// Index of the status word in the header.
 const STATUS: usize = 7;
@@ -48,7 +48,7 @@ impl Region {
     /// Creates the shared memory.
     ///
     /// # Errors
-    /// As [`Shared::make`].
+    /// The same errors as for [`Shared::make`].
     pub fn make(
         path: &Path,
         (scenario, period): (u64, f64),
@@ -62,7 +62,7 @@ impl Region {
         let head = [scenario, inputs as u64, outputs as u64, places[0], places[1], period.to_bits(), 1];
         let words = region.shared.words();
         words[1..].iter().zip(head).for_each(|(word, value)| word.store(value, Ordering::Relaxed));
-        // The mark is written last, so that a client that reads it finds a complete header.
+        // The mark is written last, so that a client that reads the mark finds a complete header.
         words[0].store(MARK, Ordering::Release);
         Ok(Arc::new(region))
     }
@@ -91,17 +91,17 @@ impl Region {
         RECORD - 1 + self.inputs
     }
 
-    /// Reads the input record unless its counter is `seen`.
+    /// Reads the input record unless its counter is still `seen`.
     pub(crate) fn read(&self, seen: u64, record: &mut [u64]) -> Found {
         seqlock::read(self.input(), seen, record)
     }
 
-    /// Releases the input record of a writer that was killed. Returns whether it was released.
+    /// Releases the input record if a killed client left it incomplete. Returns whether the record was released.
     pub(crate) fn free(&self, counter: u64) -> bool {
         seqlock::free(self.input(), counter)
     }
 
-    /// Writes the output record. Returns `false` if another process is writing it, which is not allowed.
+    /// Writes the output record. Returns `false` if another process is writing the record, although only the loop may do so.
     pub(crate) fn write(&self, stamp: Stamp, values: &[f64]) -> bool {
         let words = wire::words(self.scenario, stamp, values);
         seqlock::write(self.output(), std::iter::once(0).chain(words))
@@ -119,7 +119,7 @@ fn outputs_at(inputs: usize) -> usize {
     LINE + (RECORD + inputs).next_multiple_of(LINE)
 }
 
-/// Returns the total number of words.
+/// Returns the total number of words of the shared memory.
 fn length(inputs: usize, outputs: usize) -> usize {
     outputs_at(inputs) + (RECORD + outputs).next_multiple_of(LINE)
 }

@@ -1,4 +1,4 @@
-//! Report of a real-time loop in JSON and words.
+//! Report of a real-time loop as JSON and as text.
 
 mod tables;
 mod words;
@@ -127,14 +127,14 @@ pub struct RowTimes {
     pub fit_in_period: Option<u64>,
 }
 
-/// Names and measurements before a loop begins.
+/// Names and measurements that are known before a loop begins.
 #[derive(Debug, Clone)]
 pub struct Subject {
     /// Name of the scenario.
     pub scenario: String,
     /// Scenario number in packets.
     pub number: u64,
-    /// Time integrator, in words.
+    /// Description of the time integrator.
     pub stepper: String,
     /// Names of inputs.
     pub inputs: Vec<String>,
@@ -202,24 +202,24 @@ impl Report {
         }
     }
 
-    /// Returns indented JSON.
+    /// Returns the report as indented JSON.
     ///
     /// # Errors
-    /// None: all keys are strings, and all numbers are finite.
+    /// No error occurs, because all keys are strings and all numbers are finite.
     pub fn pretty(&self) -> serde_json::Result<String> {
         Ok(serde_json::to_string_pretty(self)? + "\n")
     }
 
-    /// Returns JSON in one line.
+    /// Returns the report as one line of JSON.
     ///
     /// # Errors
-    /// As [`Self::pretty`].
+    /// The same errors as for [`Self::pretty`].
     pub fn line(&self) -> serde_json::Result<String> {
         serde_json::to_string(self)
     }
 }
 
-/// Returns the word for the end of a loop, and the error if there was one.
+/// Returns a word for the reason why a loop ended, and the error message if there was an error.
 fn ending(ended: &Ended) -> (&'static str, Option<String>) {
     match &ended.outcome {
         Ok(()) if ended.waited_in_vain => ("no_input", None),

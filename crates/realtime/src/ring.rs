@@ -1,11 +1,11 @@
-//! Lock-free ring buffer for records from the loop to a writer thread. Neither side waits for the other.
+//! Lock-free ring buffer for records that the loop sends to a writer thread. Neither thread waits for the other.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-/// Ring buffer for one producer and one consumer.
+/// Ring buffer for one producer thread and one consumer thread.
 pub(crate) struct Ring {
     words: Box<[AtomicU64]>,
-    /// Number of words of a record.
+    /// Number of words per record.
     width: usize,
     /// Capacity, in records.
     room: usize,
@@ -27,7 +27,7 @@ impl Ring {
         self.room
     }
 
-    /// Returns whether the buffer is full. Only the producer may call it.
+    /// Returns whether the buffer is full. Only the producer thread may call this function.
     #[inline]
     pub(crate) fn is_full(&self) -> bool {
         self.pushed.load(Ordering::Relaxed) - self.taken.load(Ordering::Acquire) == self.room
@@ -38,7 +38,7 @@ impl Ring {
         &self.words[from..from + self.width]
     }
 
-    /// Adds a record. Returns `false` if the buffer is full. Only one thread may call it.
+    /// Adds a record. Returns `false` if the buffer is full. Only the producer thread may call this function.
     #[inline]
     pub(crate) fn push(&self, record: impl Iterator<Item = u64>) -> bool {
         if self.is_full() {
@@ -50,7 +50,7 @@ impl Ring {
         true
     }
 
-    /// Removes a record. Returns `false` if the buffer is empty. Only one thread may call it.
+    /// Removes a record. Returns `false` if the buffer is empty. Only the consumer thread may call this function.
     pub(crate) fn take(&self, record: &mut [u64]) -> bool {
         let taken = self.taken.load(Ordering::Relaxed);
         if taken == self.pushed.load(Ordering::Acquire) {

@@ -1,26 +1,26 @@
-//! Sequence lock: a record of words with several writers and one reader, none of which waits.
+//! Sequence lock: a record of words with several writers and one reader. Writers and reader never wait.
 //!
-//! The first word is a counter: its lowest bit is 1 while the record is written and 0 when it is complete. A reader reads the counter, the
-//! record and the counter again. If both counters are equal and even, the record is consistent. A writer claims the record by an atomic
-//! compare-exchange of the counter. If two writers try at once, one is refused. A reader can release a record whose writer was killed.
+//! The first word is a counter: its lowest bit is 1 while a record is written and 0 when the record is complete. A reader reads the
+//! counter, the record and the counter again. If both counters are equal and even, the record is consistent. A writer claims the record by
+//! an atomic compare-exchange of the counter. If two writers try at once, one fails. A reader can release a record whose writer was killed.
 
 use std::sync::atomic::{AtomicU64, Ordering, fence};
 
-/// Number of attempts of a reader in a frame. A writer takes nanoseconds, unless it was killed.
+/// Maximum number of attempts to read a record in a frame. A write takes nanoseconds, unless the writer was killed.
 const TRIES: usize = 4;
 
 /// Result of reading a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Found {
-    /// The record has not changed, or none was written yet.
+    /// The record has not changed, or no record has been written.
     Same,
-    /// A new record with its counter.
+    /// A new record was read; the value is its counter.
     New(u64),
-    /// A writer was active at every attempt; the last counter.
+    /// A writer was active at every attempt; the value is the last counter.
     Torn(u64),
 }
 
-/// Writes a record. `words` has one word more, the counter.
+/// Writes a record. `words` has one additional word at its start, the counter.
 ///
 /// Returns `false` if another writer is active, or if the reader released the record during the writing.
 pub(crate) fn write(words: &[AtomicU64], record: impl Iterator<Item = u64>) -> bool {
@@ -30,7 +30,7 @@ pub(crate) fn write(words: &[AtomicU64], record: impl Iterator<Item = u64>) -> b
     if counter.compare_exchange(free, busy, Ordering::Acquire, Ordering::Relaxed).is_err() {
         return false;
     }
-    // The fence keeps the writes between the two changes of the counter.
+    // The fence prevents the writes from moving before the first change of the counter.
     fence(Ordering::Release);
     for (word, value) in rest.iter().zip(record) {
         word.store(value, Ordering::Relaxed);
@@ -40,7 +40,7 @@ pub(crate) fn write(words: &[AtomicU64], record: impl Iterator<Item = u64>) -> b
 
 /// Releases a record with the counter `busy`, whose writer was killed.
 ///
-/// The record itself is invalid. Returns `false` if the writer was still active.
+/// The incomplete record is not valid. Returns `false` if the counter has changed, because the writer is still active.
 pub(crate) fn free(words: &[AtomicU64], busy: u64) -> bool {
     words.first().is_some_and(|counter| {
         let whole = busy.wrapping_add(1);
@@ -48,7 +48,7 @@ pub(crate) fn free(words: &[AtomicU64], busy: u64) -> bool {
     })
 }
 
-/// Reads a record unless its counter is `seen`.
+/// Reads a record unless its counter is still `seen`.
 pub(crate) fn read(words: &[AtomicU64], seen: u64, record: &mut [u64]) -> Found {
     let Some((counter, rest)) = words.split_first() else { return Found::Same };
     let mut before = seen;

@@ -1,4 +1,4 @@
-//! Real-time session: a plant in its loop, connected to inputs and outputs.
+//! Real-time session: a simulated system (plant) in a real-time loop, connected to inputs and outputs.
 
 use crate::film::Film;
 use crate::intake::{Client, Intake};
@@ -26,7 +26,7 @@ pub struct Wiring {
     pub intake: Intake,
     /// Destinations of the outputs.
     pub sinks: Vec<Sink>,
-    /// Log of every frame: frame, latency, ns, execution time, ns, and number of skipped deadlines.
+    /// Log with the number, latency, ns, execution time, ns, and number of skipped deadlines of every frame.
     pub log: Option<Tape>,
     /// Recording of the inputs of every frame.
     pub recording: Option<Tape>,
@@ -36,7 +36,7 @@ impl Wiring {
     /// Checks that the shared memory was not truncated.
     ///
     /// # Errors
-    /// [`Stop::Cut`] if it was.
+    /// [`Stop::Cut`] if the file was truncated.
     fn check_memory(&self) -> Result<(), Stop> {
         let read = if let Source::Memory(memory) = &self.source { Some(memory.region()) } else { None };
         let written = self.sinks.iter().filter_map(|sink| match sink {
@@ -47,7 +47,7 @@ impl Wiring {
         cut.map_or(Ok(()), |region| Err(Stop::Cut(region.path().to_owned())))
     }
 
-    /// Makes the loop wait until records can be written, so that none is lost. It is used without pacing.
+    /// Makes a loop without pacing wait until records can be written, so that no record is lost.
     fn wait(&mut self) {
         self.sinks.iter_mut().for_each(Sink::wait);
         self.log.iter_mut().chain(&mut self.recording).for_each(Tape::wait);
@@ -63,7 +63,7 @@ pub struct Order {
     pub frames: u64,
     /// Requested privileges of the loop thread.
     pub favours: Favours,
-    /// Number of frames of the empty loop that is run before.
+    /// Number of frames of the empty loop that measures the timing of the machine before the start.
     pub floor: u64,
     /// Maximum time to wait for the first input, s. 0 means no waiting.
     pub wait: f64,
@@ -73,7 +73,7 @@ pub struct Order {
 pub struct Ended {
     /// Reason for an early end.
     pub outcome: Result<(), Stop>,
-    /// Whether no first input arrived, so that no frame was computed.
+    /// Whether the first input did not arrive in time, so that no frame was computed.
     pub waited_in_vain: bool,
     /// Timing of the loop.
     pub timing: Timing,
@@ -81,15 +81,15 @@ pub struct Ended {
     pub floor: Timing,
     /// Privileges that the system denied.
     pub denied: Vec<Denied>,
-    /// Reduced time history.
+    /// Time history of the loop, reduced to a limited number of points.
     pub film: Film,
-    /// Inputs and outputs.
+    /// Inputs and outputs of the loop after its end.
     pub wiring: Wiring,
     /// Number of outputs that were not sent.
     pub unsent: u64,
 }
 
-/// Cycle of a plant: read the inputs, record them, compute the frame, send the outputs.
+/// Cycle of the real-time loop: reads and records the inputs, computes a frame of the plant, and sends the outputs.
 struct Live<'a, P> {
     plant: &'a mut P,
     wiring: &'a mut Wiring,
@@ -136,7 +136,7 @@ impl<P: Plant> Cycle for Live<'_, P> {
     }
 }
 
-/// Cycle of the empty loop.
+/// Cycle of the empty loop, which computes nothing.
 struct Idle<'a>(&'a (dyn Watcher + Sync));
 
 impl Cycle for Idle<'_> {
@@ -152,10 +152,10 @@ impl Cycle for Idle<'_> {
     }
 }
 
-/// Runs a plant in its own thread, while the calling thread writes the tapes. `start` are the outputs at t = 0.
+/// Runs a plant in a new thread, while the calling thread writes the records of the tapes to files. `start` contains the outputs at t = 0.
 ///
-/// The privileges are requested for the loop thread; only locked memory persists. Without pacing the loop waits for the tapes. Therefore
-/// `reels` must contain the reels of all tapes.
+/// The privileges are requested for the loop thread; only locked memory remains afterwards. A loop without pacing waits until records are
+/// written. Therefore `reels` must contain the receivers of all tapes.
 pub fn run<P: Plant + Send>(
     plant: &mut P,
     mut wiring: Wiring,
@@ -192,7 +192,7 @@ pub fn run<P: Plant + Send>(
     };
     let (denied, outcome, waited_in_vain, unsent) = thread::scope(|scope| {
         let turn = scope.spawn(|| {
-            // This ends the writing of the tapes, even after a panic.
+            // Dropping this value ends the writing of the tapes, even after a panic.
             let _over = Over(&over);
             turn()
         });
@@ -215,7 +215,7 @@ impl Drop for Over<'_> {
 impl<P: Plant> Live<'_, P> {
     /// Waits for the first accepted input and sends the initial outputs meanwhile.
     ///
-    /// Returns whether an input arrived or none is needed.
+    /// Returns whether an input arrived or no input is needed.
     fn wait(&mut self, seconds: f64) -> bool {
         let waits = matches!(self.wiring.source, Source::Udp(_) | Source::Memory(_) | Source::Lines(_));
         if !waits || self.wiring.intake.width() == 0 || seconds <= 0.0 {
@@ -223,14 +223,14 @@ impl<P: Plant> Live<'_, P> {
         }
         let end = now().saturating_add((NANO * seconds) as u64);
         loop {
-            // If the wait ends for this reason, the loop ends before its first frame.
+            // In both cases the loop ends before its first frame.
             if !self.observer.goes_on() || self.wiring.check_memory().is_err() {
                 return true;
             }
             let Wiring { source, intake, sinks, .. } = &mut *self.wiring;
             for sink in &mut *sinks {
                 let stamp = Stamp { sequence: 0, time: 0.0 };
-                // The output file contains frames only.
+                // The output file contains only outputs of frames, not the initial outputs.
                 if !matches!(sink, Sink::File(_)) {
                     sink.send(intake.scenario(), stamp, &self.outputs, None::<Client>);
                 }

@@ -7,7 +7,7 @@ use crate::wire::{self, MOST_VALUES, Stamp};
 use std::net::{SocketAddr, UdpSocket};
 use std::sync::Arc;
 
-/// Destination of the outputs. It receives one packet after each frame and never waits.
+/// Destination of the outputs. Every frame sends one packet and does not wait for the receiver.
 pub enum Sink {
     /// UDP packets to an address, or to the client that owns the inputs.
     Udp {
@@ -23,20 +23,20 @@ pub enum Sink {
 }
 
 impl Sink {
-    /// Makes outputs to a file wait until they can be written.
+    /// Makes the loop wait until outputs to a file can be written.
     pub(crate) fn wait(&mut self) {
         if let Self::File(tape) = self {
             tape.wait();
         }
     }
 
-    /// Sends the outputs. Returns whether they were sent.
+    /// Sends the output values of a frame. Returns whether the packet was sent.
     pub fn send(&mut self, scenario: u64, stamp: Stamp, values: &[f64], owner: Option<Client>) -> bool {
         match self {
             Self::Udp { socket, to } => {
                 let to = match (*to, owner) {
                     (Some(to), _) | (None, Some(Client::Address(to))) => to,
-                    // No client has sent an input yet.
+                    // No client has sent an input yet, so there is no receiver.
                     _ => return true,
                 };
                 let mut bytes = [0; wire::length(MOST_VALUES)];

@@ -15,11 +15,11 @@ use std::io;
 use std::net::UdpSocket;
 use std::sync::Arc;
 
-/// Source of the inputs. It is polled once before each frame and never waits.
+/// Source of the inputs. The loop polls the source once before each frame and never waits for it.
 pub enum Source {
     /// No source: the initial values are used.
     None,
-    /// UDP packets; the latest one counts.
+    /// UDP packets. The latest valid packet is used.
     Udp(Door),
     /// The input record in shared memory.
     Memory(MemorySource),
@@ -34,12 +34,12 @@ pub struct MemorySource {
     region: Arc<Region>,
     seen: u64,
     record: Vec<u64>,
-    /// The last counter of an incomplete record, and the number of times that it was found in succession.
+    /// Counter of the last incomplete record, and number of consecutive frames with this counter.
     busy: (u64, u64),
 }
 
 impl MemorySource {
-    /// Creates a reader.
+    /// Creates a reader of the input record.
     pub fn new(region: Arc<Region>) -> Self {
         let record = vec![0; region.input_words()];
         Self { region, seen: 0, record, busy: (0, 0) }
@@ -64,7 +64,7 @@ impl MemorySource {
         }
     }
 
-    /// Releases the record if the same write has not been completed within the patience. Its writer was killed.
+    /// Releases the record if the same write is incomplete for `patience` frames, because its writer was killed.
     fn free(&mut self, counter: u64, patience: u64) {
         let times = if self.busy.0 == counter { self.busy.1 + 1 } else { 1 };
         self.busy = (counter, times);
@@ -80,7 +80,7 @@ impl MemorySource {
 /// # Errors
 /// The operating system returns an error, such as a port in use.
 pub fn socket(address: std::net::SocketAddr) -> io::Result<UdpSocket> {
-    // A port chosen by the system would be lost when the socket is disconnected. Therefore the socket is bound to its number.
+    // A port chosen by the system would be lost when the socket is disconnected. Therefore the socket is bound again by port number.
     let address = if address.port() == 0 { UdpSocket::bind(address)?.local_addr()? } else { address };
     let socket = UdpSocket::bind(address)?;
     socket.set_nonblocking(true)?;

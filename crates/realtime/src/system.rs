@@ -5,10 +5,10 @@
 
 use thiserror::Error;
 
-/// Reason why a privilege is missing. The loop runs without it.
+/// Reason why a privilege is missing. The loop runs without this privilege.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Denied {
-    /// The system refused it.
+    /// The operating system refused the privilege.
     #[error("{favour}: {words}; the loop runs without it")]
     Refused {
         /// Name of the privilege.
@@ -16,7 +16,7 @@ pub enum Denied {
         /// Error of the operating system.
         words: String,
     },
-    /// It does not exist on this system.
+    /// The privilege does not exist on this operating system.
     #[error("{favour}: not available on this system; the loop runs without it")]
     Unknown {
         /// Name of the privilege.
@@ -31,7 +31,7 @@ pub struct Favours {
     pub cpu: Option<usize>,
     /// Priority of the first-in-first-out real-time scheduler, from 1 to 99.
     pub priority: Option<u8>,
-    /// Whether all memory is locked, so that it is not swapped out.
+    /// Whether all memory of the process is locked, so that it is not swapped out.
     pub lock: bool,
 }
 
@@ -42,7 +42,7 @@ impl Favours {
     #[must_use]
     pub fn ask(self) -> Vec<Denied> {
         let mut denied = Vec::new();
-        // The default timer slack is 50 µs. Threads with real-time priority have none.
+        // The default timer slack is 50 µs. Threads with real-time priority have no timer slack.
         imp::sharpen();
         if self.lock {
             denied.extend(imp::lock().err());
@@ -68,7 +68,7 @@ mod imp {
 
     const SECOND: u64 = 1_000_000_000;
 
-    /// Returns the time of the monotonic clock, ns. It usually needs no system call.
+    /// Returns the time of the monotonic clock, ns. Reading this clock usually needs no system call.
     #[inline]
     pub fn now() -> u64 {
         let time = rustix::time::clock_gettime(ClockId::Monotonic);
@@ -84,7 +84,7 @@ mod imp {
     }
 
     pub(super) fn sharpen() {
-        // If this fails, the latencies are larger.
+        // If the call fails, the latencies are larger.
         let _ = set_current_timer_slack(NonZeroU64::new(1));
     }
 
@@ -131,11 +131,11 @@ mod imp {
 
     /// Returns the time of the monotonic clock, ns since the first call.
     pub fn now() -> u64 {
-        // This overflows after 584 years.
+        // The time overflows after 584 years.
         u64::try_from(BEGINNING.get_or_init(Instant::now).elapsed().as_nanos()).unwrap_or(u64::MAX)
     }
 
-    /// Sleeps until a time of [`now`], ns, by a relative sleep. A delay at its start delays its end.
+    /// Sleeps until a time of [`now`], ns, by a relative sleep. A delay at the start of the sleep delays its end.
     pub fn sleep_until(moment: u64) {
         std::thread::sleep(Duration::from_nanos(moment.saturating_sub(now())));
     }

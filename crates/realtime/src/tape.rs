@@ -1,4 +1,4 @@
-//! Files that a separate thread writes during a loop. The loop itself does no input or output, and the memory is limited.
+//! Files that a separate thread writes during a real-time loop. The loop itself does not access the files, and the memory is limited.
 
 use crate::ring::Ring;
 use std::io::{self, Write};
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Polling interval of the writer thread.
+/// Interval at which the writer thread looks for new records.
 const LOOK: Duration = Duration::from_millis(2);
 /// Capacity of the buffer between loop and writer thread, in words: 4 MiB.
 const ROOM: usize = 1 << 19;
@@ -46,12 +46,12 @@ pub fn tape<'a>(width: usize, form: Form, to: impl Write + Send + 'a) -> (Tape, 
 }
 
 impl Tape {
-    /// Makes the sender wait if the buffer is full. It is for unpaced loops whose reel is being written.
+    /// Makes the sender wait if the buffer is full, for loops without pacing. A writer thread must be writing the records.
     pub(crate) fn wait(&mut self) {
         self.waits = true;
     }
 
-    /// Adds a record. If the buffer is full, it waits, or counts the record as lost.
+    /// Adds a record. If the buffer is full, the call waits or counts the record as lost.
     #[inline]
     pub fn put(&mut self, record: impl Iterator<Item = u64>) {
         while self.waits && self.ring.is_full() {
@@ -69,9 +69,9 @@ impl Tape {
 }
 
 impl Reel<'_> {
-    /// Writes the buffered records, at most one buffer capacity, and returns whether there may be more.
+    /// Writes at most as many buffered records as the buffer can hold, and returns whether there may be more.
     ///
-    /// The limit prevents a fast loop from blocking the other reels. After a write error, records are discarded.
+    /// With this limit, a fast loop does not keep the writer thread from writing other files. After a write error, records are discarded.
     fn wind(&mut self, record: &mut Vec<u64>) -> bool {
         record.resize(self.width, 0);
         for _ in 0..self.ring.room() {
@@ -103,7 +103,7 @@ impl Reel<'_> {
     }
 }
 
-/// Writes records until the loop has ended and all records are written. `look` is called regularly.
+/// Writes records until the loop has ended and all records are written. Meanwhile, `look` is called at regular intervals.
 pub(crate) fn write_down(reels: &mut [Reel<'_>], over: &AtomicBool, look: &dyn Fn()) {
     let mut record = Vec::new();
     loop {

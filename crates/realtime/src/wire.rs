@@ -1,4 +1,4 @@
-//! Packet format of inputs and outputs, little-endian.
+//! Format of the packets with inputs and outputs. All values are little-endian.
 //!
 //! | bytes | content |
 //! | --- | --- |
@@ -22,7 +22,7 @@ pub const HEAD: usize = 32;
 const WORD: usize = 8;
 /// Number of words of the header: magic with version and number of values, scenario number, sequence number, time.
 pub(crate) const HEAD_WORDS: usize = HEAD / WORD;
-/// Maximum number of values of a packet. Its size of 1 232 bytes needs no fragmentation in usual networks.
+/// Maximum number of values of a packet. The resulting packet size of 1 232 bytes needs no fragmentation in usual networks.
 pub const MOST_VALUES: usize = 150;
 
 /// Sequence number and time of a packet.
@@ -30,18 +30,18 @@ pub const MOST_VALUES: usize = 150;
 pub struct Stamp {
     /// Sequence number, counted by the sender.
     pub sequence: u64,
-    /// Simulated time, s. Outputs: time of the values. Inputs: time of the outputs to which they respond.
+    /// Simulated time, s. For outputs, it is the time of the values. For inputs, it is the time of the outputs to which they respond.
     pub time: f64,
 }
 
 /// Reason why a packet is not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Misfit {
-    /// The length does not fit the number of values.
+    /// The length of the packet does not fit the number of values.
     Length,
     /// The magic bytes, the version or the number of values is wrong.
     Foreign,
-    /// The scenario number is different.
+    /// The scenario number differs from that of the loop.
     Scenario,
 }
 
@@ -50,7 +50,7 @@ pub const fn length(values: usize) -> usize {
     HEAD + WORD * values
 }
 
-/// Writes a packet into a buffer of its [`length`].
+/// Writes a packet into a buffer, whose size must be its [`length`].
 pub fn encode(bytes: &mut [u8], scenario: u64, stamp: Stamp, values: &[f64]) {
     let words = words(scenario, stamp, values);
     for (bytes, word) in bytes.chunks_exact_mut(WORD).zip(words) {
@@ -77,7 +77,7 @@ fn first_word(values: usize) -> u64 {
 /// Reads a packet with `values.len()` values.
 ///
 /// # Errors
-/// The packet does not fit. `values` may be partly overwritten.
+/// The length, the format or the scenario number of the packet is wrong. `values` may be partly overwritten.
 pub fn decode(bytes: &[u8], scenario: u64, values: &mut [f64]) -> Result<Stamp, Misfit> {
     if bytes.len() >= MAGIC.len() && bytes[..MAGIC.len()] != MAGIC {
         return Err(Misfit::Foreign);
@@ -96,7 +96,7 @@ pub fn decode(bytes: &[u8], scenario: u64, values: &mut [f64]) -> Result<Stamp, 
 /// Reads a packet from words.
 ///
 /// # Errors
-/// As [`decode`].
+/// The same errors as for [`decode`].
 pub(crate) fn read(
     mut words: impl Iterator<Item = u64>,
     scenario: u64,

@@ -2,17 +2,17 @@
 
 use crate::plant::{Work, counted};
 
-/// Number of frames that are kept.
+/// Number of frames in a list of the slowest frames.
 pub const KEPT: usize = 20;
 
-/// Causes of slow frames. The first one that applies is used.
+/// Causes of slow frames. The first cause that applies is reported.
 pub const KINDS: [&str; 5] = ["merge", "event", "turning point or growth", "corner or cut step", "plain"];
 
 /// Returns the cause of a slow frame. `usual` is the usual number of time steps per frame.
 ///
-/// * merge: a full slip memory merged knots;
+/// * merge: a full slip memory merged breakpoints;
 /// * event: the event-driven integrator located an event;
-/// * turning point or growth: a slip memory gained or lost knots;
+/// * turning point or growth: a slip memory gained or lost breakpoints;
 /// * corner or cut step: the frame had more time steps than usual.
 pub fn kind(work: &Work, usual: u64) -> &'static str {
     let has = [
@@ -37,7 +37,7 @@ pub struct Slow {
     pub work: Work,
 }
 
-/// The [`KEPT`] slowest frames by one of the two times, in descending order.
+/// The [`KEPT`] slowest frames by latency or by execution time, in descending order.
 #[derive(Debug, Clone)]
 pub struct Worst {
     by: fn(&Slow) -> u64,
@@ -45,12 +45,12 @@ pub struct Worst {
 }
 
 impl Worst {
-    /// Creates an empty list. `by` returns the time that is compared.
+    /// Creates an empty list. `by` returns the time of a frame that determines the order.
     pub fn new(by: fn(&Slow) -> u64) -> Self {
         Self { by, frames: Vec::with_capacity(KEPT) }
     }
 
-    /// Adds a frame if it is among the slowest. Among equal times, earlier frames are kept.
+    /// Adds a frame if it is among the slowest frames. Of frames with equal times, earlier frames are kept.
     #[inline]
     pub fn look(&mut self, frame: Slow) {
         let time = (self.by)(&frame);

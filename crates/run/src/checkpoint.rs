@@ -1,9 +1,9 @@
 //! Checkpoints: interrupted runs can be resumed.
 //!
-//! A run with checkpoints has a folder [`FOLDER`] in its results folder. It contains the resolved scenario, the `journal` with all recorded
-//! data so far, and the state with the length of the journal (`stub`). The state file is replaced atomically. A resumed run reads the
-//! state, replays the journal up to this length to a new recorder, truncates the rest and continues. Its results do not differ from those
-//! of an uninterrupted run. The state is stored between two time steps; no step is shortened for it.
+//! A run with checkpoints has a folder [`FOLDER`] in its results folder. This folder contains the resolved scenario, the `journal` with all
+//! recorded data, and the state of the run with the journal length (`stub`). The state file is replaced atomically. A resumed run reads the
+//! state, replays the journal up to this length to a new recorder, truncates the rest and continues. Resumed and uninterrupted runs have
+//! identical results. Checkpoints are written between two time steps and shorten no step.
 //!
 //! [`Keeper`] writes checkpoints, [`Resumption`] reads them. [`model_key`] identifies scenarios whose states are compatible.
 
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 
 /// Name of the checkpoint folder in the results folder.
 pub const FOLDER: &str = "checkpoint";
-/// File with the state. It is written last and replaced atomically.
+/// Name of the file with the state of the run. A checkpoint replaces this file last and atomically.
 const STATE: &str = "state";
 /// File with all recorded data.
 const JOURNAL: &str = "journal";
@@ -56,7 +56,7 @@ fn plain(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Removes the checkpoint of a results folder, if there is one. Other files in its folder are kept.
+/// Removes the checkpoint of a results folder, if there is one. Other files in the checkpoint folder are kept.
 ///
 /// # Errors
 /// The operating system returns an error.

@@ -14,7 +14,7 @@ impl Columns {
         Self { chosen: channels.iter().cloned().enumerate().collect() }
     }
 
-    /// Returns the time and the channels with these indices as columns, in this order.
+    /// Returns columns for the time and for the channels with the indices `places`, in this order.
     pub fn chosen(channels: &[Channel], places: &[usize]) -> Self {
         let rest = places.iter().copied().filter(|place| *place > 0);
         let chosen = std::iter::once(0).chain(rest);
@@ -26,12 +26,12 @@ impl Columns {
         self.chosen.len()
     }
 
-    /// Returns whether there are no columns, not even the time.
+    /// Returns whether the list of columns is empty, even without the time.
     pub fn is_empty(&self) -> bool {
         self.chosen.is_empty()
     }
 
-    /// Iterates over the values of the columns in a row of all channels. Missing values are NaN.
+    /// Selects the values of the columns from `values`, a row of all channels. Missing values are NaN.
     pub fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = (f64, &'a Channel)> {
         self.chosen.iter().map(|(place, channel)| (values.get(*place).copied().unwrap_or(f64::NAN), channel))
     }

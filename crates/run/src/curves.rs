@@ -1,11 +1,11 @@
-//! Reads the memory curves of `memory.csv`.
+//! Reads `memory.csv`: slip memory curves of the contacts at requested times.
 
 use crate::frame::FrameError;
 use crate::rows::Rows;
 use crate::seal::SealedTable;
 use stickslip_quantity::columns::MEMORY;
 
-/// Memory curve of a contact at one time.
+/// Slip memory of a contact at one time: rest positions p of the springs as a function of their height h.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemoryCurve {
     /// Name of the contact.
@@ -14,15 +14,15 @@ pub struct MemoryCurve {
     pub time: f64,
     /// Indentation d and displacement u, m.
     pub apex: (f64, f64),
-    /// Heights h of the corners of the curve, m, from the centre to the edge of the contact.
+    /// Heights h of the breakpoints of the piecewise linear curve p(h), m, from the centre to the edge of the contact.
     pub h: Vec<f64>,
-    /// Rest positions p(h), m.
+    /// Rest positions p(h) of the springs at these heights, m.
     pub p: Vec<f64>,
 }
 
-/// Reads the table, one line per corner. Of more than `most` curves, only those at evenly chosen times are read.
+/// Reads the table, one line per breakpoint. If the table has more than `most` curves, only curves at evenly chosen times are read.
 ///
-/// The first and the last time are included.
+/// These times include the first and the last time of the table.
 ///
 /// # Errors
 /// The file cannot be read, has other columns, or contains a cell that is not a number.
@@ -53,12 +53,12 @@ pub fn read(table: &SealedTable, most: usize) -> Result<Vec<MemoryCurve>, FrameE
 /// Returns the number of curves in the table.
 ///
 /// # Errors
-/// As [`read`].
+/// The same errors as for [`read`].
 pub fn count(table: &SealedTable) -> Result<usize, FrameError> {
     Ok(survey(table)?.1)
 }
 
-/// Returns all times, s, and the number of curves.
+/// Returns all times of the table, s, and the number of its curves.
 fn survey(table: &SealedTable) -> Result<(Vec<f64>, usize), FrameError> {
     let mut corners = Corners::open(table)?;
     let (mut times, mut curves, mut last) = (Vec::new(), 0, (f64::NAN, String::new()));
@@ -75,7 +75,7 @@ fn survey(table: &SealedTable) -> Result<(Vec<f64>, usize), FrameError> {
     Ok((times, curves))
 }
 
-/// Returns at most `most` evenly chosen times, including the last one, and the first one if there is more than one.
+/// Returns at most `most` evenly chosen times: the last time and, if `most` exceeds 1, the first time are among them.
 pub fn chosen(times: &[f64], most: usize) -> Vec<f64> {
     if times.len() <= most {
         return times.to_vec();

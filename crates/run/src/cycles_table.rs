@@ -1,4 +1,4 @@
-//! `cycles.csv`: all cycles of contacts whose displacement u returns.
+//! Table `cycles.csv`: all load cycles of the contacts at whose end the displacement u returns to its initial value.
 
 use crate::sheet::{Sheet, Written};
 use std::io;
@@ -8,9 +8,9 @@ use tempfile::NamedTempFile;
 
 /// Index of the column `closed` among the values.
 const CLOSED: usize = 2;
-/// Writer of the table. Cycles are written in the order in which they end.
+/// Writer of `cycles.csv`. Cycles are written in the order in which they end.
 ///
-/// Forces and energies are those of all identical contacts together. Missing values are empty.
+/// Forces and energies are sums over identical contacts. Missing values are empty.
 pub(crate) struct CyclesTable {
     sheet: Sheet,
     is_empty: bool,
@@ -21,7 +21,7 @@ impl CyclesTable {
         Self { sheet: Sheet::new(file, CYCLES.names.iter().copied()), is_empty: true }
     }
 
-    /// Writes a cycle of a contact, with its number from 1.
+    /// Writes a cycle of the contact `name`. Cycles of a contact are numbered from 1.
     pub(crate) fn write(&mut self, (name, number): (&str, usize), cycle: &JudgedCycle) {
         self.is_empty = false;
         self.sheet.text(name);

@@ -1,20 +1,20 @@
 //! SHA-256 of a table, computed in a separate thread while the table is written.
 //!
-//! On processors without SHA instructions, hashing takes longer than the simulation. Therefore the blocks of a table with more than one
-//! block are hashed by a separate thread. The run waits for it at its end only.
+//! On processors without SHA instructions, hashing takes longer than the simulation. Therefore a separate thread hashes the blocks of every
+//! table with more than one block. The run waits for this thread only at its end.
 
 use crate::seal::Digester;
 use std::io;
 use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
 use std::thread::{Builder, JoinHandle};
 
-/// Maximum number of blocks in the queue. If it is full, the run waits.
+/// Maximum number of blocks in the queue. If the queue is full, the run waits.
 const WAITING: usize = 8;
 
 /// Digest of a table that is being written.
 #[derive(Debug, Default)]
 pub(crate) struct Digest {
-    /// Digest of the blocks before the thread was started.
+    /// Digest of the blocks that were written before the hashing thread was started.
     here: Digester,
     beside: Option<Beside>,
 }
@@ -23,13 +23,13 @@ pub(crate) struct Digest {
 #[derive(Debug)]
 struct Beside {
     full: SyncSender<Vec<u8>>,
-    /// Hashed blocks, which are reused.
+    /// Blocks that have been hashed. The memory of these blocks is reused.
     hashed: Receiver<Vec<u8>>,
     thread: JoinHandle<Digester>,
 }
 
 impl Digest {
-    /// Hashes a block and returns an empty one. A table with a single block is hashed without a thread.
+    /// Hashes a block and returns an empty block. A table with a single block is hashed without a thread.
     pub(crate) fn take(&mut self, mut block: Vec<u8>, is_last: bool) -> Vec<u8> {
         if self.beside.is_none() && !is_last {
             self.beside = Beside::begin(self.here.clone());

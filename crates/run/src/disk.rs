@@ -1,4 +1,4 @@
-//! File system operations of the publishing of results, as a trait for tests with failing file systems.
+//! File system operations for publishing results. The trait [`Disk`] allows tests to simulate failures of the file system.
 
 use std::fmt::Debug;
 use std::fs::{self, File};
@@ -34,7 +34,7 @@ impl Disk for System {
     }
 
     fn sync_folder(&self, path: &Path) -> io::Result<()> {
-        // On other systems, a folder cannot be opened as a file.
+        // Only Unix systems can open a folder as a file.
         if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) }
     }
 

@@ -38,7 +38,7 @@ pub(crate) fn check(job: &Job) -> Result<(), ScenarioError> {
     let Some(limit) = job.scenario.memory_limit else { return Ok(()) };
     let expected = Expectation::of(job);
     let kept = expected.kept.0;
-    // Memory that cannot be estimated is checked during the run.
+    // If the memory cannot be estimated (NaN), it is checked during the run.
     let is_more = kept > limit;
     if !is_more {
         return Ok(());

@@ -4,9 +4,9 @@ use crate::folder::Folder;
 use crate::seal::SealedTable;
 use stickslip_quantity::{Columns, columns};
 
-/// Rows over time.
+/// Values of the channels over time (the trace).
 pub const TRACE: &str = columns::TRACE.file;
-/// Events, each with the row after it.
+/// Events, each with the values of the channels directly after it.
 pub const EVENTS: &str = columns::EVENTS.file;
 /// States of all springs over time, if requested.
 pub const SPRINGS: &str = columns::SPRINGS.file;
@@ -18,7 +18,7 @@ pub const FIELDS: &str = columns::FIELDS.file;
 pub const FRICTION: &str = columns::FRICTION.file;
 /// Tables about the interior of contacts, which are written on request.
 pub const INSIDES: [&str; 4] = [SPRINGS, MEMORY, FIELDS, FRICTION];
-/// Cycles of contacts whose displacement u returns.
+/// Load cycles of contacts at whose end the displacement u returns to its initial value.
 pub const CYCLES: &str = columns::CYCLES.file;
 /// Steps of a drive.
 pub const STEPS: &str = columns::STEPS.file;
@@ -26,13 +26,13 @@ pub const STEPS: &str = columns::STEPS.file;
 pub const SCENARIO: &str = "scenario.json";
 /// Summary of the run.
 pub const SUMMARY: &str = "summary.json";
-/// Points of a curve of a drive.
+/// Points of a curve: a result of the steady motion of a drive versus one parameter.
 pub const CURVE: &str = "curve.json";
-/// Points of an interrupted curve. A finished curve is kept.
+/// Points of an interrupted curve. An existing [`CURVE`] is not overwritten.
 pub const PARTIAL_CURVE: &str = "curve-partial.json";
 /// Sensitivities of results to parameters of the scenario.
 pub const SENSITIVITY: &str = "sensitivity.json";
-/// Sensitivities of an interrupted computation. Finished ones are kept.
+/// Sensitivities of an interrupted computation. An existing [`SENSITIVITY`] is not overwritten.
 pub const PARTIAL_SENSITIVITY: &str = "sensitivity-partial.json";
 /// Map of a result over two parameters.
 pub const MAP: &str = "map.json";
@@ -42,10 +42,10 @@ pub const STEADY: &str = "steady.json";
 pub const OPTIMUM: &str = "optimum.json";
 /// Branch of periodic orbits as a function of a parameter.
 pub const BRANCH: &str = "branch.json";
-/// Points of an interrupted branch. A finished branch is kept.
+/// Points of an interrupted branch. An existing [`BRANCH`] is not overwritten.
 pub const PARTIAL_BRANCH: &str = "branch-partial.json";
 
-/// Tables whose columns are the same in every run. Those of `events.csv` precede the columns of the trace.
+/// Tables whose columns are the same in every run. `events.csv` has additional columns: those of the trace.
 pub const TABLES: [Columns; 7] = [
     columns::EVENTS,
     columns::SPRINGS,
@@ -70,10 +70,10 @@ pub struct InsideTables {
 }
 
 impl InsideTables {
-    /// Finds the tables by their names.
+    /// Finds the four tables by calling `place` with their file names.
     ///
     /// # Errors
-    /// The error of `place`.
+    /// Any error that `place` returns.
     pub fn find<E>(mut place: impl FnMut(&str) -> Result<SealedTable, E>) -> Result<Self, E> {
         Ok(Self {
             springs: place(SPRINGS)?,

@@ -29,7 +29,7 @@ pub struct Fingerprint {
 pub struct TablePrint {
     /// Number of rows.
     pub rows: u64,
-    /// Number of rows per block, a power of two. The last block may have fewer.
+    /// Number of rows per block, a power of two. The last block may have fewer rows.
     block: u64,
     /// Time of the first row of each block, s.
     starts: Vec<f64>,
@@ -53,7 +53,7 @@ pub struct Difference {
     pub what: Differing,
     /// Time of the first row of the first different block, s.
     pub from: f64,
-    /// Number of rows of this block.
+    /// Number of rows of the first different block.
     pub within: u64,
 }
 
@@ -76,7 +76,7 @@ pub enum FingerprintError {
     /// The text does not have the format of a fingerprint.
     #[error("{0}")]
     Form(#[from] serde_json::Error),
-    /// The numbers are inconsistent.
+    /// The numbers in the fingerprint are inconsistent.
     #[error("its numbers are inconsistent")]
     Numbers,
 }
@@ -84,14 +84,14 @@ pub enum FingerprintError {
 impl Fingerprint {
     /// Returns the fingerprint as JSON text.
     pub fn text(&self) -> String {
-        // Serialisation cannot fail. A time that is not finite becomes null, which is an error when it is read.
+        // Serialisation cannot fail. A time that is not finite becomes null, and reading this text fails.
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// Reads a fingerprint from [`Self::text`].
+    /// Reads a fingerprint from the JSON text that [`Self::text`] returns.
     ///
     /// # Errors
-    /// The text has another format, or its numbers are inconsistent.
+    /// The text does not have the format of a fingerprint, or its numbers are inconsistent.
     pub fn parse(text: &str) -> Result<Self, FingerprintError> {
         let print: Self = serde_json::from_str(text)?;
         if print.trace.is_sound() && print.events.is_sound() {
@@ -150,7 +150,7 @@ impl TablePrint {
         found
     }
 
-    /// Returns the start times and the digests of all columns for blocks of `rows` rows, which is at least the block size.
+    /// Merges blocks to `rows` rows, at least the block size, and returns their start times and the digests of all columns.
     fn in_blocks_of(&self, rows: u64) -> (Vec<f64>, Vec<Vec<u64>>) {
         let mut starts = self.starts.clone();
         let digit = |column: &ColumnPrint| -> Vec<u64> {

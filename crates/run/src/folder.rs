@@ -1,7 +1,7 @@
 //! Atomic publishing of a results folder.
 //!
-//! No system call renames several files at once. Therefore the summary acts as a seal: it is removed first and written last. At any time
-//! the folder contains the old results, the new results, or no summary. A folder without a summary is not read.
+//! No system call renames several files at once. Therefore the summary marks complete results. The summary is removed first and written
+//! last. At any time the folder contains the old results, the new results, or no summary. A folder without a summary is not read.
 
 mod drafts;
 
@@ -36,7 +36,7 @@ const SUMMARIES: [&str; 10] = [
 /// A results folder under construction.
 ///
 /// Every file is written under a temporary name in the folder, flushed to disk, and renamed at the end. After a crash either the old file
-/// or the complete new one exists.
+/// or the complete new file exists.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
@@ -91,10 +91,10 @@ impl Folder {
         &self.path
     }
 
-    /// Moves the staged files and all later ones to another folder. This folder remains unchanged.
+    /// Redirects the staged and all later files to the folder `path`. The previous folder remains unchanged.
     ///
     /// # Errors
-    /// As [`Self::make`].
+    /// The same errors as for [`Self::make`].
     pub fn divert(&mut self, path: &Path) -> io::Result<()> {
         let mut other = Self::make(path)?;
         (self.path, self.made) = (path.to_owned(), std::mem::take(&mut other.made));
@@ -102,7 +102,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Reserves disk space for the files that are written last. The unnamed file that holds it disappears with the program.
+    /// Reserves disk space for the files that are written last, by an unnamed file that is deleted when the program ends.
     ///
     /// # Errors
     /// The disk space is not available, or another error of the operating system.
@@ -111,7 +111,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Reserves disk space and returns the file that holds it. Dropping the file releases the space.
+    /// Reserves disk space and returns an unnamed file that occupies it. Dropping the file releases the space.
     pub(crate) fn spare(&self, bytes: usize) -> io::Result<File> {
         let mut file = tempfile::tempfile_in(&self.path)?;
         file.write_all(&vec![0; bytes])?;
@@ -141,7 +141,7 @@ impl Folder {
         draft(&self.path, name)
     }
 
-    /// Stages a temporary file as the file `name`. It is renamed by [`Self::publish`].
+    /// Flushes a temporary file to disk and stages it. [`Self::publish`] renames staged files to `name`.
     ///
     /// # Errors
     /// The file cannot be flushed to disk.
@@ -152,7 +152,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Writes and stages a complete file. It is renamed by [`Self::publish`].
+    /// Writes `bytes` to a temporary file and stages it. [`Self::publish`] renames staged files to `name`.
     ///
     /// # Errors
     /// An error of the operating system.
@@ -162,7 +162,7 @@ impl Folder {
         self.stage(name, file)
     }
 
-    /// Returns the current path of a file: its temporary file if it is staged, or else its final path.
+    /// Returns the current path of a file: the path of the temporary file if it is staged, or else the final path.
     pub fn place(&self, name: &str) -> PathBuf {
         let draft = self.staged.iter().find(|(staged, _)| staged == name);
         draft.map_or_else(|| self.path.join(name), |(_, file)| file.path().to_owned())
@@ -204,7 +204,7 @@ impl Folder {
         if self.stale_checkpoint { checkpoint::remove(&self.path) } else { Ok(()) }
     }
 
-    /// Removes a file. Returns whether it existed.
+    /// Removes a file. Returns whether the file existed.
     fn remove(&self, name: &str) -> io::Result<bool> {
         match self.disk.remove(&self.path.join(name)) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
@@ -245,7 +245,7 @@ pub fn is_complete(path: &Path) -> bool {
 /// Writes one file atomically.
 ///
 /// # Errors
-/// An error of the operating system. The previous file is then unchanged.
+/// An error of the operating system. The previous file remains unchanged.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut file = draft(folder, &path.file_name().unwrap_or_default().to_string_lossy())?;

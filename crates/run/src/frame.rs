@@ -45,7 +45,7 @@ pub enum Values {
 /// Words of a column, stored with a dictionary.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Words {
-    /// Different words in order of first occurrence.
+    /// Different words of the column in order of first occurrence.
     pub dictionary: Vec<String>,
     /// Index of the word of each row in the dictionary.
     pub codes: Vec<u32>,
@@ -144,7 +144,7 @@ impl Frame {
         &self.columns
     }
 
-    /// Returns a column of numbers by its name. Returns `None` if it does not exist or contains words.
+    /// Returns a column of numbers by its name. Returns `None` if no such column exists or if it contains words.
     pub fn numbers(&self, name: &str) -> Option<&[f64]> {
         self.columns.iter().find(|column| column.name == name).and_then(|column| match &column.values {
             Values::Numbers(values) => Some(values.as_slice()),
@@ -152,7 +152,7 @@ impl Frame {
         })
     }
 
-    /// Returns a column of words by its name. Returns `None` if it does not exist or contains numbers.
+    /// Returns a column of words by its name. Returns `None` if no such column exists or if it contains numbers.
     pub fn words(&self, name: &str) -> Option<&Words> {
         self.columns.iter().find(|column| column.name == name).and_then(|column| match &column.values {
             Values::Words(words) => Some(words),

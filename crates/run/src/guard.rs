@@ -7,12 +7,12 @@ use std::path::Path;
 
 /// Maximum size of a summary, in bytes. A summary with a million periods and ten thousand contacts has about 40 MB.
 const MOST_BYTES: u64 = 64 << 20;
-/// Maximum number of values in a summary. Each needs about a hundred bytes of memory.
+/// Maximum number of values in a summary. A value needs about a hundred bytes of memory.
 const MOST_VALUES: usize = 2_500_000;
 
 /// Opens a regular file.
 ///
-/// Other files are rejected, because opening a named pipe would wait for a writer.
+/// Files of other types are rejected, because opening a named pipe would wait for a writer.
 ///
 /// # Errors
 /// The path is not a regular file or cannot be opened.
@@ -48,15 +48,15 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 /// Reads a regular file as UTF-8 text.
 ///
 /// # Errors
-/// As [`read`], or the file is not UTF-8.
+/// The same errors as for [`read`], or the file is not UTF-8.
 pub fn text(path: &Path) -> io::Result<String> {
     String::from_utf8(read(path)?).map_err(|_| io::Error::other("the file is not UTF-8 text"))
 }
 
-/// Reads a regular file as JSON. The nesting depth is limited to 127 by the library.
+/// Reads a regular file as JSON. The JSON library limits the nesting depth to 127.
 ///
 /// # Errors
-/// As [`read`], or the file is not JSON or has too many values.
+/// The same errors as for [`read`], or the file is not JSON or has too many values.
 pub fn json(path: &Path) -> io::Result<Value> {
     let bytes = read(path)?;
     // Every value except the first one follows one of these characters. Characters in strings are counted, too.

@@ -19,7 +19,7 @@ self_cell!(
     }
 );
 
-/// A [`Run`] with shared ownership of its job. The caller advances it step by step.
+/// A [`Run`] with shared ownership of its job. The caller advances the run step by step.
 ///
 /// ```no_run
 /// # use std::{path::Path, sync::Arc};
@@ -55,7 +55,7 @@ pub struct Port {
     pub place: usize,
     /// SI unit of the first quantity that follows the waveform.
     pub unit: &'static str,
-    /// Minimum and maximum value, in this unit. For a generator it is the range of the stroke.
+    /// Minimum and maximum value, in this unit. For a generator, these are the limits of the stroke.
     pub range: (f64, f64),
     /// Description.
     pub text: String,
@@ -66,7 +66,7 @@ pub struct Port {
 pub struct Quantity {
     /// Name with its SI unit, such as `slider.x_m`.
     pub name: String,
-    /// SI unit; empty if the channel has none.
+    /// SI unit. Empty for channels without a unit.
     pub unit: &'static str,
     /// Description.
     pub text: &'static str,
@@ -76,16 +76,16 @@ impl Held {
     /// Creates a run from the initial state of its job.
     ///
     /// # Errors
-    /// As [`Run::new`].
+    /// The same errors as for [`Run::new`].
     pub fn new(job: Arc<Job>) -> Result<Self, RunError> {
         let start = job.start.clone();
         Self::from_state(job, start)
     }
 
-    /// Creates a run from a state, such as one from [`State::from_bytes`].
+    /// Creates a run from a state, such as a state read by [`State::from_bytes`].
     ///
     /// # Errors
-    /// As [`Run::new`].
+    /// The same errors as for [`Run::new`].
     pub fn from_state(job: Arc<Job>, state: State) -> Result<Self, RunError> {
         Cell::try_new(job, |job| Run::new(&job.model, &job.scenario.plan, state)).map(|cell| Self { cell })
     }
@@ -107,17 +107,17 @@ impl Held {
         self.with_state(State::time)
     }
 
-    /// Returns the state in binary form. Another process can continue from it by [`Self::from_bytes`].
+    /// Returns the state in binary form. Another process can continue the run from these bytes by [`Self::from_bytes`].
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let job = self.job();
         self.with_state(|state| state.to_bytes(&job.model, &model_key(&job.scenario)))
     }
 
-    /// Creates a run from a stored state of a run with the same motion.
+    /// Creates a run from the bytes of [`Self::to_bytes`]. Both scenarios must have the same motion: equal [`model_key`].
     ///
     /// # Errors
-    /// The bytes are damaged or belong to another motion.
+    /// The bytes are damaged or belong to a scenario with another motion.
     pub fn from_bytes(job: Arc<Job>, bytes: &[u8]) -> Result<Self, HeldError> {
         let state = State::from_bytes(&job.model, &model_key(&job.scenario), bytes)?;
         Ok(Self::from_state(job, state)?)
@@ -126,23 +126,23 @@ impl Held {
     /// Advances the run, see [`Run::advance`].
     ///
     /// # Errors
-    /// As [`Run::advance`].
+    /// The same errors as for [`Run::advance`].
     pub fn advance(&mut self, until: f64, record: &mut dyn Record) -> Result<(), RunError> {
         self.cell.with_dependent_mut(|_, run| run.advance(until, record))
     }
 
-    /// Sets an input that holds its value, see [`Run::hold`].
+    /// Sets an input to a constant value, see [`Run::hold`].
     ///
     /// # Errors
-    /// As [`Run::hold`].
+    /// The same errors as for [`Run::hold`].
     pub fn hold(&mut self, input: usize, value: f64) -> Result<(), InputError> {
         self.cell.with_dependent_mut(|_, run| run.hold(input, value))
     }
 
-    /// Sets an input that is interpolated, see [`Run::lead`].
+    /// Lets an input change linearly to a value until a given time, see [`Run::lead`].
     ///
     /// # Errors
-    /// As [`Run::lead`].
+    /// The same errors as for [`Run::lead`].
     pub fn lead(&mut self, input: usize, until: f64, value: f64) -> Result<(), InputError> {
         self.cell.with_dependent_mut(|_, run| run.lead(input, until, value))
     }
@@ -150,7 +150,7 @@ impl Held {
     /// Commands a generator, see [`Run::command`].
     ///
     /// # Errors
-    /// As [`Run::command`].
+    /// The same errors as for [`Run::command`].
     pub fn command(&mut self, generator: usize, command: Command) -> Result<(), CommandError> {
         self.cell.with_dependent_mut(|_, run| run.command(generator, command))
     }

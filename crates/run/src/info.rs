@@ -1,4 +1,4 @@
-//! Properties of a model before it runs, for JSON.
+//! Properties of a model that are known before the run, as data structures for JSON.
 //!
 //! In reading order: [`bodies`] and [`waveforms`], [`contacts`], [`modes`], [`piezos`]; [`Stepping`]; [`Expectation`]; [`Usage`].
 

@@ -22,7 +22,7 @@ pub(crate) struct Insides<'a> {
     now: f64,
 }
 
-/// A table with the times of its snapshots.
+/// A table with the schedule of its snapshots.
 struct Looks {
     sheet: Sheet,
     schedule: Schedule,
@@ -80,12 +80,12 @@ impl<'a> Insides<'a> {
         }
     }
 
-    /// Returns whether the paths of the contacts are needed.
+    /// Returns whether a table needs the paths of the contacts in the (d, u) plane.
     pub(crate) fn follows(&self) -> bool {
         self.fields.is_some()
     }
 
-    /// Adds a path of contact `c`.
+    /// Adds a section of the path of contact `c` in the (d, u) plane.
     pub(crate) fn path(&mut self, c: usize, segment: Segment) {
         if let Some((tables, _)) = &mut self.fields {
             tables.path(c, segment);
@@ -130,7 +130,7 @@ fn springs(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     }
 }
 
-/// Writes one line per corner of each memory curve, from the centre to the edge. An open contact has no corners.
+/// Writes one line per breakpoint of each slip memory curve, from the centre to the edge. An open contact has no breakpoints.
 fn curves(sheet: &mut Sheet, job: &Job, t: f64, memories: &[Memory]) {
     for ((name, _), memory) in job.model.contacts().zip(memories) {
         let Memory::Curve(curve) = memory else { continue };

@@ -1,4 +1,4 @@
-//! A checked scenario with all data for its run.
+//! A job: a checked scenario with its model, initial state and output settings.
 
 use crate::columns::Columns;
 use crate::excess;
@@ -24,7 +24,7 @@ pub struct Job {
     pub setting: Setting,
     /// Columns of the trace and the event table.
     pub columns: Columns,
-    /// Springs of each contact that are written, if requested.
+    /// Springs of each contact that are written to `springs.csv`, if requested.
     pub grids: Vec<Option<Arc<Springs>>>,
     /// Resolved scenario in canonical JSON.
     pub resolved: String,
@@ -51,7 +51,7 @@ pub enum Refusal {
         /// File name without extension.
         name: String,
     },
-    /// Two files have the same results folder.
+    /// Two scenario files have the same results folder.
     #[error("{}: its results folder {} is also that of {}\n   help: rename one of the files, or run them separately", .file.display(), .folder.display(), .other.display())]
     SameFolder {
         /// Path of the later file.
@@ -63,7 +63,7 @@ pub enum Refusal {
     },
 }
 
-/// Allows `job.model` and `job.scenario` for the fields of the setting.
+/// Makes the fields of `job.setting` accessible as `job.model`, `job.scenario` and `job.start`.
 impl Deref for Job {
     type Target = Setting;
 
@@ -81,7 +81,7 @@ impl DerefMut for Job {
 impl Job {
     /// Reads a scenario and checks it. Nothing is written.
     ///
-    /// The pairs in `set` are overrides. The results folder of `NAME.json` is `out/NAME`.
+    /// The pairs of key and value in `set` override values of the file. The results folder of `NAME.json` is `out/NAME`.
     ///
     /// # Errors
     /// The scenario is invalid, or the file name cannot name a folder.
@@ -99,7 +99,7 @@ impl Job {
         Ok(Self::new(scenario, stem.to_string_lossy().into_owned(), out.join(stem))?)
     }
 
-    /// Builds the model of a scenario and checks it. `folder` is the results folder. It may be empty if none are written.
+    /// Builds the model of a scenario and checks it. `folder` is the results folder. The path may be empty if no results are written.
     ///
     /// # Errors
     /// The scenario is invalid. The errors contain their positions in the file.
@@ -120,7 +120,7 @@ impl Job {
             limits::check_curves(&scenario),
             limits::check_fields(&scenario),
         ];
-        // These checks are independent of each other.
+        // Independent checks are all made, so that their errors are reported together.
         let wrong = started.as_ref().err().into_iter().chain(columns.as_ref().err()).cloned();
         let wrong = wrong.chain(estimates.into_iter().filter_map(Result::err));
         if let Some(error) = ScenarioError::joined(wrong) {
@@ -145,7 +145,7 @@ impl Job {
         Self::new(self.scenario.with(set)?, self.name.clone(), self.folder.clone())
     }
 
-    /// Returns the job with the resolved scenario and the program of stored results.
+    /// Returns the job with the resolved scenario and the program name that stored results contain.
     pub fn with_origin(self, resolved: String, program: String) -> Self {
         Self { hash: hash(&resolved), resolved, program, ..self }
     }

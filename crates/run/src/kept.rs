@@ -8,11 +8,11 @@ use stickslip_measure::Series;
 use stickslip_measure::Tracks;
 use stickslip_scenario::PlotName;
 
-/// Plots that are drawn from rows and states after events. Other plots have their own tables.
+/// Plots that are drawn from rows and from states after events. Other plots are drawn from tables of their own.
 pub(crate) const FROM_SERIES: [PlotName; 6] =
     [PlotName::Loop, PlotName::Trajectory, PlotName::Energy, PlotName::Phase, PlotName::Xy, PlotName::Drive];
 
-/// Returns whether the data of a plot grow with the duration of the run.
+/// Returns whether the data that a plot needs grow with the duration of the run.
 pub(crate) fn grows(plot: PlotName) -> bool {
     FROM_SERIES.contains(&plot) || plot == PlotName::Events
 }
@@ -28,13 +28,13 @@ pub struct Kept {
     pub series: Series,
     /// Time reached, s.
     end: f64,
-    /// Event times, if a plot shows them.
+    /// Event times, if a plot shows event times.
     pub tracks: Option<Tracks>,
-    /// Time up to which the events are complete, s, if they were thinned.
+    /// If events were thinned: time up to which the events are complete, s.
     pub whole_until: Option<f64>,
     /// Number of events dropped because of the memory limit.
     pub left_out: u64,
-    /// Maximum number of values. Events beyond it are dropped.
+    /// Maximum number of values. If it is reached, later events are dropped.
     most: u64,
     /// Fingerprint under construction, if requested.
     sketch: Option<Sketch>,
@@ -55,25 +55,25 @@ impl Kept {
         }
     }
 
-    /// Returns the store without data that these plots do not need.
+    /// Returns the store without the data that the plots in `plots` do not need.
     pub(crate) fn for_pictures(self, plots: &[PlotName]) -> Self {
         let tracks = self.tracks.filter(|_| plots.contains(&PlotName::Events));
         let series = if draws_from_series(plots) { self.series } else { Series::none() };
         Self { series, tracks, ..self }
     }
 
-    /// Returns the store with a fingerprint of tables with these columns.
+    /// Returns the store with an additional fingerprint of tables with these columns.
     pub fn fingerprinted(self, columns: Columns) -> Self {
         Self { sketch: Some(Sketch::new(columns)), ..self }
     }
 
-    /// Returns the fingerprint of the tables so far; an empty one if none was requested.
+    /// Returns the fingerprint of the tables so far. Returns an empty fingerprint if none was requested.
     pub fn fingerprint(&self) -> Fingerprint {
         let nothing = || Sketch::new(Columns::default()).finish();
         self.sketch.as_ref().map_or_else(nothing, Sketch::finish)
     }
 
-    /// Returns whether sources and kinds of events are needed.
+    /// Returns whether the caller must pass the sources and kinds of events.
     pub(crate) fn wants_words(&self) -> bool {
         self.tracks.is_some() || self.sketch.is_some()
     }
@@ -92,7 +92,7 @@ impl Kept {
         self.size() < self.most
     }
 
-    /// Adds an event: its source and kind, and the values after it.
+    /// Adds an event: its source and kind, and the channel values directly after it.
     pub fn event(&mut self, words: [&str; 2], values: &[f64]) {
         if let Some(sketch) = &mut self.sketch {
             sketch.event(words, values);

@@ -6,13 +6,12 @@
 //!
 //! In reading order:
 //!
-//! * [`Job`], with its `limits`; [`info`], properties known before the run; [`Columns`]; [`program`], name and version;
-//! * [`Watcher`], [`Recorder`] and [`Outcome`] – a run; [`Held`] – a run that the caller advances; [`Table`] – rows in memory;
-//! * [`Kept`] – results in memory; `table`, `insides` and `sheet` with `digest` – tables on disk, with the names in [`files`], in a
-//!   [`folder`]
-//!   on a `disk`, each with its [`Seal`]; [`fingerprint`];
+//! * [`Job`] (a prepared scenario) with its `limits`; [`info`] (properties known before the run); [`Columns`] of tables; [`program`];
+//! * a run: [`Watcher`], [`Recorder`], [`Outcome`] (its results), [`Held`] (a run that the caller advances), [`Table`] (rows in memory);
+//! * [`Kept`]: results in memory; `table`, `insides` and `sheet` with `digest`: tables on disk, named in [`files`], each with its [`Seal`];
+//!   [`folder`]: atomic publishing of results on a `disk`; [`fingerprint`]: digests of tables;
 //! * [`summary`] with [`Real`] and [`Parts`]; [`warning`];
-//! * `guard`, `synopsis`, `rows` and [`frame`], `replay` and [`Results`], [`springs`] and [`curves`] – reading of results;
+//! * readers of results: `guard`, `synopsis`, `rows` and [`frame`], `replay` and [`Results`], [`springs`] and [`curves`];
 //! * [`checkpoint`] – interrupted runs that can be resumed;
 //! * [`theory`] – a single contact without a run;
 //! * [`quantity()`] (numbers with units), [`provenance`], [`markdown`], [`complaint`] – texts about results.

@@ -7,7 +7,7 @@ use stickslip_drive::{Model, State};
 use stickslip_quantity::columns::{FIELDS, MEMORY, SPRINGS};
 use stickslip_scenario::{Scenario, ScenarioError};
 
-/// Maximum number of values of a table: up to 2 GB in memory and about 5 GB on disk.
+/// Maximum number of values of a table. A table of this size takes up to 2 GB in memory and about 5 GB on disk.
 pub(crate) const MOST_VALUES: u64 = 250_000_000;
 
 /// Checks the number of rows.
@@ -32,12 +32,12 @@ pub(crate) fn check_rows(scenario: &Scenario, width: usize) -> Result<(), Scenar
     Err(scenario.locate("output.every", message, Some(help)))
 }
 
-/// Returns the springs of each contact that a run writes: those of its spring row, or a grid for its memory curve.
+/// Returns the springs of each contact that a run writes: those of a spring row, or a grid that samples the slip memory curve.
 ///
-/// A contact that is never pressed has none.
+/// A contact that is never pressed has no springs.
 ///
 /// # Errors
-/// The springs exceed the maximum size of a table.
+/// The table of springs would exceed the maximum size of a table.
 pub(crate) fn grids(
     scenario: &Scenario,
     model: &Model,
@@ -48,7 +48,7 @@ pub(crate) fn grids(
     let grid = |(c, ((_, law), memory)): (usize, ((&str, &Interface), &Memory))| match memory {
         Memory::Row(row) => Some(Arc::clone(&row.springs)),
         Memory::Curve(_) => {
-            // Only a contact without width has no springs. It is never pressed.
+            // Only a contact without width has no springs. Such a contact is never pressed.
             let width = model.contact_width(c).unwrap_or(0.0);
             Springs::new(law.profile(), asked.count, width).ok().map(Arc::new)
         }
@@ -70,7 +70,7 @@ pub(crate) fn grids(
 /// Checks the size of the table of fields.
 ///
 /// # Errors
-/// The fields exceed the maximum size of a table.
+/// The table of fields would exceed the maximum size of a table.
 pub(crate) fn check_fields(scenario: &Scenario) -> Result<(), ScenarioError> {
     let Some(asked) = &scenario.fields else { return Ok(()) };
     let moments = asked.moments.count(scenario.plan.duration);
@@ -88,10 +88,10 @@ pub(crate) fn check_fields(scenario: &Scenario) -> Result<(), ScenarioError> {
     Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
 }
 
-/// Checks the size of the table of memory curves.
+/// Checks the size of the table of slip memory curves.
 ///
 /// # Errors
-/// The curves may exceed the maximum size of a table.
+/// The table of slip memory curves may exceed the maximum size of a table.
 pub(crate) fn check_curves(scenario: &Scenario) -> Result<(), ScenarioError> {
     let Some(asked) = &scenario.memory else { return Ok(()) };
     let curves = asked.moments.count(scenario.plan.duration) * scenario.scene.contacts.len() as f64;
@@ -108,10 +108,10 @@ pub(crate) fn check_curves(scenario: &Scenario) -> Result<(), ScenarioError> {
     Err(scenario.locate(&asked.asked_by, message, Some(help.to_owned())))
 }
 
-/// Checks the memory of a contact history without a run. Springs are stored and written at `moments`, and stored in `frames`.
+/// Checks the memory for the springs of a load history: they are written at `moments` times and stored for `frames` animation frames.
 ///
 /// # Errors
-/// The springs exceed the maximum size of a table.
+/// The table of springs would exceed the maximum size of a table.
 pub(crate) fn check_history(springs: usize, moments: usize, frames: usize) -> Result<(), String> {
     let (looks, most) = (moments + frames, MOST_VALUES / LINE_WIDTH as u64);
     let lines = springs as u64 * looks as u64;

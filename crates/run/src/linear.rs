@@ -8,11 +8,11 @@ use thiserror::Error;
 
 /// State-space model ż = A z + B w, y = C z + D w.
 ///
-/// The equations of motion are M ẍ + C₀ ẋ + K x = P w + Q ẇ. The states z = (x, ẋ - M⁻¹Q w) avoid the input rates ẇ. The outputs are y =
-/// (x, ẋ).
+/// The equations of motion are M ẍ + C₀ ẋ + K x = P w + Q ẇ. With the states z = (x, ẋ - M⁻¹Q w), the input rates ẇ do not occur in the
+/// model. The outputs are y = (x, ẋ).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StateSpace {
-    /// Names of the states, such as `slider.x_m`. The second half are velocities minus M⁻¹Q w.
+    /// Names of the states, such as `slider.x_m`. The second half of the states are velocities minus M⁻¹Q w.
     pub states: Vec<String>,
     /// Names of the inputs with units: waveforms, or free strokes of stacks with a driver.
     pub inputs: Vec<String>,
@@ -79,7 +79,7 @@ impl StateSpace {
             (false, true) => over(&|i, j| stiffness[(i, j)], i - n, j),
             (false, false) => over(&|i, j| damping[(i, j)], i - n, j - n),
         });
-        // Contribution of an input rate to a velocity.
+        // Element (i, w) of M⁻¹Q: contribution of an input rate to an acceleration.
         let kick = |i: usize, w: usize| driving[w].damping[i] / mass[i];
         let inputs = 0..driving.len();
         let b = (0..2 * n).map(|i| {

@@ -26,9 +26,9 @@ use thiserror::Error;
 pub use clean::{Correct, Rig};
 pub use stage::{Account, MISFIT, Stage};
 
-/// Columns of the table of measured cycles. The names are those in `cycles.csv` of a run.
+/// Columns of the table of measured cycles. Quantities that `cycles.csv` of a run also contains have the same names.
 ///
-/// Without times, row numbers replace them. Stiffnesses are fitted to the first tenth of the displacement range after a reversal.
+/// Row numbers replace missing times. Stiffnesses are fitted to the first tenth of the displacement range after a reversal.
 const HEAD: [&str; 20] = [
     "cycle",
     "start_s",
@@ -51,16 +51,16 @@ const HEAD: [&str; 20] = [
     "mean_normal_force_N",
     "regime",
 ];
-/// Minimum displacement that confirms a reversal: in standard deviations of the noise, and relative to the range.
+/// Minimum displacement that confirms a reversal: in standard deviations of the noise, and relative to the displacement range.
 const SURE: f64 = 12.0;
 const LEAST: f64 = 1e-3;
-/// Distance between the ends of a cycle, relative to its range, above which it counts as open.
+/// Distance between start and end of a cycle, relative to the displacement range, above which the cycle counts as open.
 const OPEN: f64 = 0.1;
-/// Range of the normal force, relative to its mean, above which it is flagged as varying.
+/// Range of the normal force in a cycle, relative to its mean, above which the cycle gets the flag `load`.
 const VARIES: f64 = 0.1;
-/// Number of iterations for the compliance of the rig.
+/// Number of iterations that determine the compliance of the rig.
 const ROUNDS: usize = 3;
-/// Maximum gap between the ends of consecutive cycles, relative to a cycle.
+/// Maximum gap between the end of a cycle and the start of the next cycle, relative to the length of a cycle.
 const NEAR: f64 = 0.2;
 
 /// Error of the evaluation of measured loops.
@@ -116,7 +116,7 @@ pub struct Measured {
 
 /// One cycle of a record with its results.
 ///
-/// Its opening is taken at the middle of the force range, because the zero of a load cell is uncertain.
+/// The opening of the loop is taken at the middle of the force range, because the zero of a load cell is uncertain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredCycle {
     /// Rows of the cycle, both ends included.
@@ -133,11 +133,11 @@ pub struct MeasuredCycle {
     pub normal: Option<[f64; 3]>,
     /// Slip regime, if a contact profile was given.
     pub regime: Option<Regime>,
-    /// Work ∮F du of the unchanged rows, J.
+    /// Work ∫F du over the rows of the cycle before corrections, J.
     pub work: f64,
     /// Number of the stage, from 1. A stage consists of consecutive cycles of similar amplitude and duration.
     pub stage: usize,
-    /// Whether the cycle is open: its ends are farther apart than a tenth of its range. A chord then closes the loop.
+    /// Whether the cycle is open: start and end differ by more than a tenth of the displacement range. A chord closes an open loop.
     pub is_open: bool,
 }
 
@@ -152,7 +152,7 @@ pub struct How {
     pub to: Option<f64>,
     /// Numbers of the first and the last cycle, from 1.
     pub cycles: Option<[usize; 2]>,
-    /// Effects that are corrected.
+    /// Effects that are corrected on request.
     pub correct: Correct,
     /// Test rig in series with the contact, whose displacement is subtracted.
     pub rig: Option<Rig>,
@@ -171,16 +171,16 @@ pub struct Evaluated {
     pub account: Account,
     /// Numbers of removed spikes of the displacement and of the force.
     pub spikes: [usize; 2],
-    /// Corrected displacements and forces, if they differ from the record.
+    /// Displacements and forces after all corrections. `None` if no value of the record was changed.
     pub rows: Option<[Vec<f64>; 2]>,
     /// Steady loop of the longest stage before corrections.
     pub found: Option<SteadyLoop>,
-    /// Longest stage without the correction for the rig, and the stiffness of the rig, N/m, if it was corrected.
+    /// Longest stage before the correction for the rig, and stiffness of the rig, N/m. `None` without this correction.
     pub with_rig: Option<(Stage, Interval)>,
 }
 
 impl Evaluated {
-    /// Returns the stage with the most cycles; among equal ones, the last.
+    /// Returns the stage with the most cycles, or the last of several such stages.
     #[must_use]
     pub fn longest(&self) -> Option<&Stage> {
         self.stages.iter().max_by_key(|stage| stage.cycles.len())
@@ -197,7 +197,7 @@ impl Evaluated {
 
     /// Returns whether the measured force resists the motion.
     ///
-    /// The steady loop decides if its sign is certain, then the slopes after the reversals, then the sign of the loop area.
+    /// The criterion is the steady loop if its sign is certain, or else the majority of slopes after reversals, or else the loop area.
     fn is_turned(&self) -> bool {
         if let Some(steady) =
             self.longest().and_then(|stage| stage.steady).filter(|steady| steady.is_sense_sure)
@@ -211,7 +211,7 @@ impl Evaluated {
 }
 
 impl Measured {
-    /// Reads a record from a table of an instrument. Settings that the recipe omits are detected.
+    /// Reads a record from a table of an instrument. Settings that are missing in the recipe are detected.
     ///
     /// # Errors
     /// The file cannot be read, or lacks a required column.
@@ -229,11 +229,11 @@ impl Measured {
 
     /// Splits the record into cycles and evaluates each cycle and each stage with confidence intervals.
     ///
-    /// The cycles are periods from the first row on, or extend between reversals of the same kind. A resisting force is inverted. On
-    /// request, time lag and drift of the longest stage are removed from the whole record.
+    /// The cycles are periods from the first row on, or extend between reversals of the same kind. The sign of a resisting force is
+    /// inverted. On request, time lag and drift of the longest stage are removed from the whole record.
     ///
     /// # Errors
-    /// Times do not ascend, a period or a time interval was given without times, or there is no cycle.
+    /// Times do not ascend, the settings contain a period or a time interval but the record has no times, or there is no cycle.
     pub fn evaluate(&mut self, how: &How) -> Result<Evaluated, MeasuredError> {
         if (how.period.is_some() || how.from.is_some() || how.to.is_some()) && !self.has_time {
             return Err(MeasuredError::NoTime(self.file.clone()));
@@ -256,7 +256,7 @@ impl Measured {
         Ok(evaluated)
     }
 
-    /// Evaluates the record without the displacement of the rig. `evaluated` are the results with it.
+    /// Subtracts the displacement of the rig and evaluates the record again. `evaluated` are the results before this correction.
     fn without_rig(
         &self,
         how: &How,
@@ -267,7 +267,7 @@ impl Measured {
         let unknown = || MeasuredError::Rig(self.file.clone());
         let whole = evaluated.longest().cloned().ok_or_else(unknown)?;
         let mut stiffness = Interval::default();
-        // The correction is iterated, because rig and contact together have other branches than the contact alone.
+        // The correction is iterated, because the branches of rig and contact together differ from those of the contact alone.
         for _ in 0..if matches!(rig, Rig::Contact(_)) { ROUNDS } else { 1 } {
             let tangent = evaluated.longest().and_then(|stage| stage.result("stiffness_N_m"));
             let compliance = rig.compliance(tangent.ok_or_else(unknown)?);
@@ -289,7 +289,7 @@ impl Measured {
         Ok(evaluated)
     }
 
-    /// Keeps the rows of a time interval.
+    /// Removes all rows outside of a time interval.
     fn keep(&mut self, from: Option<f64>, to: Option<f64>) -> Result<(), MeasuredError> {
         if from.is_none() && to.is_none() {
             return Ok(());
@@ -376,7 +376,7 @@ fn of_load(normal: &[f64]) -> [f64; 3] {
     [normal.iter().sum::<f64>() / normal.len() as f64, low, high]
 }
 
-/// Removes the difference between both ends by distributing it evenly over all rows.
+/// Removes the difference between the last and the first value by distributing it evenly over all rows.
 fn without_gap(values: &[f64]) -> Vec<f64> {
     let gap = values.last().zip(values.first()).map_or(0.0, |(last, first)| last - first);
     let rows = values.len().saturating_sub(1).max(1) as f64;
@@ -401,7 +401,7 @@ fn with_changing(u: &[f64], cycles: &[Range<usize>]) -> Vec<Range<usize>> {
         }
         places.splice(0..0, from);
         places.extend(next.map(|next| next.start));
-        // The ends of a closed cycle are reversals of one kind. Without one, the kind of the first reversal is used.
+        // Start and end of a closed cycle are reversals of the same kind. Without a closed cycle, the kind of the first reversal is used.
         let mut kind: Vec<usize> = match (from, next) {
             (None, Some(_)) => places.into_iter().rev().step_by(2).collect(),
             _ => places.into_iter().step_by(2).collect(),
@@ -414,7 +414,7 @@ fn with_changing(u: &[f64], cycles: &[Range<usize>]) -> Vec<Range<usize>> {
     all
 }
 
-/// Connects consecutive cycles whose gap is caused by noise.
+/// Extends cycles to the end of the previous cycle if the gap between them is caused by noise.
 fn joined(mut cycles: Vec<Range<usize>>) -> Vec<Range<usize>> {
     for k in 1..cycles.len() {
         let (end, next) = (cycles[k - 1].end - 1, cycles[k].clone());
@@ -425,10 +425,10 @@ fn joined(mut cycles: Vec<Range<usize>>) -> Vec<Range<usize>> {
     cycles
 }
 
-/// Evaluates the last cycle of contact `c` of a run like a measured one. Returns displacements, forces and results.
+/// Evaluates the last cycle of contact `c` of a run like a measured cycle. Returns displacements, forces and results.
 ///
-/// The displacements are those of the contact, or of a channel such as `rig.x`. Returns `None` without a closed cycle, or if the channel
-/// does not exist.
+/// The displacements are those of the contact, or the values of a channel such as `rig.x`. Returns `None` without a closed cycle or without
+/// the channel.
 #[must_use]
 pub fn simulated(
     job: &Job,
@@ -458,9 +458,9 @@ pub fn simulated(
     Some((last.x, last.y, cycle))
 }
 
-/// Returns `cycles.csv` of measured loops. Missing values are empty.
+/// Returns the table `cycles.csv` of measured loops as CSV text. Missing values are empty.
 ///
-/// μ_e is computed with the mean normal force `normal`, N, or with that of each cycle.
+/// The energy coefficient of friction μ_e is computed with the mean normal force `normal`, N, or with the measured mean of each cycle.
 #[must_use]
 pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
     let mut text = HEAD.join(",") + "\n";
@@ -492,14 +492,14 @@ pub fn table(cycles: &[MeasuredCycle], normal: Option<f64>) -> String {
 }
 
 impl MeasuredCycle {
-    /// Returns the energy coefficient of friction for a mean normal force, N, or for that of the cycle.
+    /// Returns the energy coefficient of friction for the mean normal force `normal`, N, or for the measured mean of the cycle.
     #[must_use]
     pub fn friction(&self, normal: Option<f64>) -> Option<f64> {
         let own = self.normal.map(|[mean, ..]| mean).filter(|mean| *mean > 0.0);
         normal.or(own).and_then(|normal| self.cycle.friction_coefficient(normal))
     }
 
-    /// Returns flags of the cycle: `open`, `load` (varies by more than a tenth of its mean) or `unloaded`.
+    /// Returns the flags of the cycle: `open`, `load` (the normal force varies by more than a tenth of its mean) and `unloaded`.
     fn flags(&self) -> String {
         let is_unloaded = self.normal.is_some_and(|[mean, ..]| mean <= 0.0);
         let varies = self.normal.is_some_and(|[mean, low, high]| high - low > VARIES * mean.abs());

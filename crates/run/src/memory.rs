@@ -1,10 +1,10 @@
-//! Table of the rows and events of a run in memory.
+//! Table in memory with the rows and events of a run.
 
 use crate::columns::Columns;
 use std::collections::HashMap;
 use stickslip_drive::{Channel, Event, Model, Record, state_name};
 
-/// Rows and events of a run in memory. It is a [`Record`] for a run, or part of a [`Recorder`](crate::Recorder).
+/// Rows and events of a run in memory. The table is a [`Record`] (receiver of a run's data), or part of a [`Recorder`](crate::Recorder).
 ///
 /// ```no_run
 /// # use std::path::Path;
@@ -20,7 +20,7 @@ use stickslip_drive::{Channel, Event, Model, Record, state_name};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     channels: Vec<Channel>,
-    /// Index of each column in a row of all channels.
+    /// Index of each column among all channels of the model.
     taken: Vec<usize>,
     places: HashMap<String, usize>,
     columns: Vec<Vec<f64>>,
@@ -57,7 +57,7 @@ impl Table {
         &self.channels
     }
 
-    /// Returns the values of a channel such as `slider.x_m`, in SI units. A state is given by its code.
+    /// Returns the values of a channel such as `slider.x_m`, in SI units. States are given by their codes.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         self.places.get(name).map(|place| self.columns[*place].as_slice())

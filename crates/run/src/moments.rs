@@ -15,9 +15,9 @@ pub struct OverRadius {
     pub contact: String,
     /// Time, s.
     pub time: f64,
-    /// Numeric columns of the table from r on.
+    /// Numeric columns of the table, beginning with the radius r.
     pub columns: Vec<Vec<f64>>,
-    /// Slip states, if the table has them.
+    /// Slip states at these radii, if the table has a column of states.
     pub states: Vec<SpringState>,
 }
 
@@ -35,7 +35,7 @@ pub fn fields(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
 /// Reads `friction.csv`: r, friction work per area, slip path.
 ///
 /// # Errors
-/// As [`fields`].
+/// The same errors as for [`fields`].
 pub fn friction(table: &SealedTable) -> Result<Vec<OverRadius>, FrameError> {
     read(table, FRICTION.names, (FRICTION.names.len(), false))
 }

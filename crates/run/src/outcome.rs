@@ -28,9 +28,9 @@ pub struct Outcome {
     pub(crate) tally: Tally,
     /// Cycles of each contact.
     pub(crate) cycles: Vec<ContactCycles>,
-    /// Numbers of events and of written events.
+    /// Numbers of all events and of written events.
     pub events: TakenEvents,
-    /// Memory used at the end by data that grow with the run, B.
+    /// Memory at the end of the run of all data that grow with its duration, B.
     pub bytes: usize,
     /// Number of rows of the trace.
     pub rows: u64,
@@ -38,18 +38,18 @@ pub struct Outcome {
     pub absent: Vec<&'static str>,
     /// Wall time of the simulation alone, s.
     pub wall: f64,
-    /// Excess of the memory limit, if it ended the run.
+    /// Error that the memory limit was exceeded, if this ended the run.
     pub excess: Option<Excess>,
     /// First write error, which ended the run. The tables may end before the run.
     pub failure: Option<io::Error>,
-    /// Rows and events as in the tables, if the recorder stored them.
+    /// Rows and events as written to the tables, if the recorder stored them in memory.
     pub table: Option<Table>,
 }
 
 impl Outcome {
-    /// Returns the cycles of contact `c` whose displacement u returns, in order of time.
+    /// Returns the cycles of contact `c` at whose end the displacement u returns to its initial value, in order of time.
     ///
-    /// Only a run in memory stores them. A run with tables writes them instead.
+    /// Only a run in memory stores its cycles. A run with tables writes them to `cycles.csv` instead.
     pub fn cycles(&self, c: usize) -> &[JudgedCycle] {
         self.cycles.get(c).map_or(&[], |cycles| &cycles.all)
     }
@@ -62,7 +62,7 @@ impl Outcome {
 }
 
 impl Job {
-    /// Runs the job in memory. Nothing is written. `&()` is a watcher without effect.
+    /// Runs the job in memory and writes no files. `&()` is a watcher without effect.
     pub fn run(&self, watcher: &dyn Watcher) -> Outcome {
         let (ended, recorder) = Ended::of(self, Recorder::new(self, watcher));
         ended.outcome(recorder.into_recorded()).0
@@ -84,7 +84,7 @@ impl Job {
     }
 }
 
-/// End of a run without the recorded data.
+/// Final state, error and wall time of a run, without its recorded data.
 pub(crate) struct Ended {
     pub(crate) error: Option<RunError>,
     pub(crate) state: State,
@@ -100,7 +100,7 @@ impl Ended {
         (Self { error: result.err(), state, wall }, recorder)
     }
 
-    /// Combines the end of a run with its recorded data.
+    /// Combines the final state of a run with its recorded data.
     pub(crate) fn outcome(self, recorded: Recorded) -> (Outcome, Vec<Draft>) {
         let Self { error, state, wall } = self;
         let Recorded {

@@ -1,4 +1,4 @@
-//! Periodic orbit of a drive, as part of `info` and of the summary of a run.
+//! Properties of the periodic orbit of a drive, as part of `info` and of the summary of a run.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -71,20 +71,20 @@ fn is_one(periods: &u64) -> bool {
 }
 
 impl Repetition {
-    /// Returns whether the step exceeds its error.
+    /// Returns whether the step length exceeds its error.
     #[must_use]
     pub fn steps(&self) -> bool {
         self.step.0.abs() > self.error.0
     }
 
-    /// Returns the step in words, such as `1.2 µm a period`, or `no step` if it does not exceed its error.
+    /// Returns the step length as text, such as `1.2 µm a period`, or `no step` if the length does not exceed its error.
     #[must_use]
     pub fn step_words(&self) -> String {
         step_words(self.step, self.error, self.periods)
     }
 }
 
-/// Returns a step with its error, m, in a number of drive periods, in words.
+/// Returns a displacement with its error, m, in `periods` drive periods as text.
 #[must_use]
 pub fn step_words(step: Real, error: Real, periods: u64) -> String {
     let each = if periods == 1 { "a period".to_owned() } else { format!("in {periods} periods") };

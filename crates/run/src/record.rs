@@ -1,4 +1,4 @@
-//! Recorder of a run: tables on disk, other data in memory.
+//! Recorder of a run: writes tables to disk and keeps other data in memory.
 
 mod tables;
 
@@ -25,7 +25,7 @@ pub struct Recorder<'a> {
     job: &'a Job,
     watcher: &'a dyn Watcher,
     tables: Option<Tables<'a>>,
-    /// Rows and events as they are written, if they are stored in memory.
+    /// Selected and rounded rows and events, if they are stored in memory.
     table: Option<Table>,
     recorded: Recorded,
     /// Selection of the written rows and events.
@@ -34,19 +34,19 @@ pub struct Recorder<'a> {
     until: f64,
     /// Memory limit, B.
     limit: Option<f64>,
-    /// Whether rows are written in a part of the run only.
+    /// Whether rows are written only within a time window.
     has_window: bool,
     /// Whether cycles are stored in memory if there is no table.
     keeps_cycles: bool,
-    /// Sampling times of the evaluations.
+    /// Times at which the evaluations of the run need samples.
     marks: Marks,
-    /// Time of a snapshot that has already been requested, s.
+    /// Time of a snapshot that has been requested but not yet received, s.
     asked: Option<f64>,
-    /// Buffer for cycles that end.
+    /// Buffer for the cycles that end at a sample, with the indices of their contacts.
     ended: Vec<(usize, CycleFigures)>,
 }
 
-/// Recorded data without the tables.
+/// Recorded data of a run. Tables are on disk, all other data in memory.
 pub(crate) struct Recorded {
     pub kept: Kept,
     /// Energy balance.
@@ -55,9 +55,9 @@ pub(crate) struct Recorded {
     pub tally: Tally,
     /// Cycles of each contact.
     pub cycles: Vec<ContactCycles>,
-    /// Memory used at the end by data that grow with the run, B.
+    /// Memory at the end of the run of all data that grow with its duration, B.
     pub bytes: usize,
-    /// Numbers of events and of written events.
+    /// Numbers of all events and of written events.
     pub events: TakenEvents,
     /// Number of rows of the trace.
     pub rows: u64,
@@ -65,16 +65,16 @@ pub(crate) struct Recorded {
     pub absent: Vec<&'static str>,
     /// Written tables.
     pub drafts: Vec<Draft>,
-    /// Excess of the memory limit, if it ended the run.
+    /// Error that the memory limit was exceeded, if this ended the run.
     pub excess: Option<Excess>,
     /// First write error.
     pub failure: Option<io::Error>,
-    /// Rows and events as they are written, if they were stored in memory.
+    /// Selected and rounded rows and events, if they were stored in memory.
     pub table: Option<Table>,
 }
 
 impl<'a> Recorder<'a> {
-    /// Creates a recorder that stores the requested data in memory.
+    /// Creates a recorder that stores the data for the plots of the job in memory.
     pub fn new(job: &'a Job, watcher: &'a dyn Watcher) -> Self {
         let channels = job.model.channels();
         let (kept, books) = (Kept::new(&channels, &job.scenario.plots), Books::new(&channels));
@@ -130,13 +130,13 @@ impl<'a> Recorder<'a> {
         Self { table: Some(Table::of(&self.job.columns)), ..self }
     }
 
-    /// Returns the recorder with a fingerprint of the tables, whether they are written or not.
+    /// Returns the recorder with an additional fingerprint of the tables, even if the tables are not written.
     pub fn fingerprinted(mut self) -> Self {
         self.recorded.kept = self.recorded.kept.fingerprinted(self.job.columns.clone());
         self
     }
 
-    /// Returns the recorder for a run of which only the fingerprint is needed.
+    /// Returns a recorder that computes only the fingerprint of a run.
     ///
     /// Data that grow with the run are not stored, and the memory limit is not applied.
     ///
@@ -153,15 +153,15 @@ impl<'a> Recorder<'a> {
         Self { until, ..self }
     }
 
-    /// Makes the last requested snapshot time the next one again, s.
+    /// Requests the snapshot at time `next`, s, again. An infinite time means no further snapshot.
     pub(crate) fn hand_back(&mut self, next: f64) {
         self.asked = Some(next).filter(|next| next.is_finite());
     }
 
-    /// Adds an event with the name of its kind. Returns whether the tables contain it.
+    /// Adds an event with the name of its kind. Returns whether the event is written to the tables.
     pub(crate) fn event_named(&mut self, source: Source, kind: &str, values: &[f64]) -> bool {
         if kind == EventKind::Turn.name() {
-            // No branch of the contact law ends here. The reversal is only needed for the period account.
+            // The reversal of a sticking contact only matters to the evaluation of drive periods; no branch of the contact law ends here.
             self.recorded.tally.account(Some((source, kind)), values);
             return false;
         }
@@ -187,7 +187,7 @@ impl<'a> Recorder<'a> {
         true
     }
 
-    /// Adds a sample for the evaluations and records the cycles that it ends.
+    /// Adds a sample for the evaluations and records the contact cycles that end at this sample.
     fn moment(&mut self, values: &[f64], event: Option<Source>) {
         self.recorded.tally.moment(self.job, (values, event.is_some()), &mut self.ended);
         if !self.ended.is_empty() {
@@ -219,7 +219,7 @@ impl<'a> Recorder<'a> {
         self.recorded.kept.whole_until = self.recorded.events.whole_until;
     }
 
-    /// Ends a period with this number.
+    /// Ends the drive period with this number.
     fn end_period(&mut self, number: u64) {
         let Some(stride) = self.recorded.tally.end_extents() else { return };
         if let Some(failure) = self.recorded.tally.take_failure() {
@@ -237,7 +237,7 @@ impl<'a> Recorder<'a> {
         self.recorded.failure.get_or_insert(failure);
     }
 
-    /// Closes the tables. After a write error a table ends with its last complete block. The error is part of the result.
+    /// Closes the tables. After a write error a table ends with its last complete block, and the result contains the error.
     ///
     /// # Errors
     /// A table cannot be written at all.
@@ -266,7 +266,7 @@ impl<'a> Recorder<'a> {
         self.recorded.kept.bytes() + self.recorded.tally.bytes() + cycles.sum::<usize>()
     }
 
-    /// Returns whether the memory limit is kept.
+    /// Returns whether the memory used is within the memory limit.
     fn has_room(&mut self, t: f64) -> bool {
         let Some(limit) = self.limit else { return true };
         let kept = self.bytes() as f64;
@@ -331,7 +331,7 @@ impl Record for Recorder<'_> {
 
     fn mark(&mut self, values: &[f64]) {
         if self.has_window {
-            // Rows outside the window are missing, so the samples replace them.
+            // Rows outside of the time window are not written, so samples replace them.
             self.recorded.tally.row(values);
             self.recorded.books.read(values);
         }

@@ -19,7 +19,7 @@ pub(crate) enum LastRow {
     Stop,
 }
 
-/// Reads the trace and the events in the order of their recording. A row precedes the events at the same time.
+/// Passes the rows of the trace and the events to a recorder in their original order. A row precedes events at the same time.
 pub(crate) fn read(
     (trace, events): (&SealedTable, &SealedTable),
     columns: &Columns,

@@ -15,9 +15,9 @@ use std::path::{Path, PathBuf};
 use stickslip_scenario::{PlotName, Scenario, ScenarioError};
 use thiserror::Error;
 
-/// Results on disk.
+/// Results of a run, read from a results folder.
 pub struct Results {
-    /// Job of the run.
+    /// Job of the run that wrote the results.
     pub job: Job,
     /// Recorded data.
     pub kept: Kept,
@@ -62,7 +62,7 @@ pub enum ResultsError {
 }
 
 impl Results {
-    /// Reads a results folder with the data that the plots need. If `plots` is empty, these are the plots of the scenario.
+    /// Reads a results folder with the data that the plots need. If `plots` is empty, the plots of the scenario are used.
     ///
     /// # Errors
     /// The folder contains no results, a file cannot be read or was changed, or a table is damaged.
@@ -76,7 +76,7 @@ impl Results {
         let last = if synopsis.text("/status") == "done" { LastRow::End } else { LastRow::Stop };
         let mut kept = replay::read(tables, &job.columns, (&job.scenario.plots, last))?;
         kept.whole_until = synopsis.number("/counts/events_whole_until_s");
-        // Optional tables may be missing. Existing ones must be regular files with a seal.
+        // Optional tables may be missing. Existing tables must be regular files with a seal.
         let optional = |name: &str| match folder.join(name) {
             path if path.exists() => match guard::open(&path) {
                 Ok(_) => Ok(synopsis.table(name)?),
@@ -87,13 +87,13 @@ impl Results {
         Ok(Self { job, kept, insides: InsideTables::find(optional)? })
     }
 
-    /// Returns the program that computed the results, if it differs from this one.
+    /// Returns the program that computed the results, if it differs from this program.
     pub fn other_program(&self) -> Option<&str> {
         (self.job.program != this_program()).then_some(self.job.program.as_str())
     }
 }
 
-/// Reads the job of the run. Its name is that of the folder.
+/// Reads the job of the run. The job gets the name of the results folder.
 fn job(folder: &Path, synopsis: &Synopsis) -> Result<Job, ResultsError> {
     let of = |pointer: &str, key| match synopsis.text(pointer) {
         "" => Err(synopsis.lacks(key)),
@@ -127,7 +127,7 @@ fn advice(error: &FrameError) -> &'static str {
     }
 }
 
-/// Returns a note if another program wrote the results. It may have written keys that this one does not know.
+/// Returns a note if another program wrote the results. The other program may have written keys that this program does not know.
 fn other_program(program: &str) -> String {
     let this = this_program();
     if program == this { String::new() } else { format!("\n   note: written by {program}, this is {this}") }

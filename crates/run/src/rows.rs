@@ -1,7 +1,7 @@
-//! Row-by-row reader of a table of results.
+//! Row-by-row reader of a CSV table of results.
 //!
-//! A table has one line per row, without line ends in cells. The sizes of lines, cells and columns are limited, because the file may come
-//! from an unknown source. At the end of the table, its seal is checked.
+//! A table has one line per row, and cells contain no line ends. The sizes of lines, cells and columns are limited, because the file may
+//! come from an unknown source. At the end of a table, its row count and SHA-256 are checked.
 
 use crate::frame::FrameError;
 use crate::guard;
@@ -17,18 +17,18 @@ const MOST_COLUMNS: usize = 200_000;
 /// Maximum size of a line, in bytes.
 const MOST_LINE: u64 = 16 << 20;
 
-/// An open table at one of its rows.
+/// An open table and its current row.
 pub struct Rows {
     path: PathBuf,
     reader: BufReader<File>,
     digest: Option<(Digester, Seal)>,
     head: Vec<String>,
-    /// Bytes and text of the current line. They differ if cells are quoted.
+    /// Bytes and text of the current line. Bytes and text differ if cells are quoted.
     bytes: Vec<u8>,
     text: String,
     /// End of each cell in the text; a comma follows it.
     ends: Vec<usize>,
-    /// Line number of the current row, from 1, and the number of rows so far.
+    /// Line number of the current row, from 1, and number of rows read so far.
     line: u64,
     rows: u64,
 }
@@ -109,7 +109,7 @@ impl Rows {
         if line.bytes().any(|byte| byte.is_ascii_control()) {
             return Err("has a control character".to_owned());
         }
-        // The number is checked before memory is allocated.
+        // The number of cells is checked before memory is allocated.
         let cells = 1 + line.bytes().filter(|byte| *byte == b',').count();
         if cells > MOST_COLUMNS && !line.contains('"') {
             return Err(format!("expected at most {MOST_COLUMNS} cells, got {cells}"));
@@ -137,7 +137,7 @@ impl Rows {
         }
     }
 
-    /// Compares the number of rows and the digest with the seal.
+    /// Compares the number of rows and the SHA-256 of the table with its seal.
     fn check_seal(&self) -> Result<(), FrameError> {
         let Some((digest, seal)) = &self.digest else { return Ok(()) };
         if self.rows != seal.rows {
@@ -166,19 +166,19 @@ impl Rows {
         Err(FrameError::Head { path: self.path.clone(), place: place + 1, expected, got })
     }
 
-    /// Returns an error about the current row, or about the last row after the end.
+    /// Returns an error with the line number of the current row, or of the last row after the end of the table.
     pub fn fault(&self, message: String) -> FrameError {
         FrameError::Content { path: self.path.clone(), line: self.line.max(1), message }
     }
 
-    /// Returns a cell; empty if the column does not exist.
+    /// Returns a cell of the current row. Returns an empty text if the column does not exist.
     pub fn text(&self, column: usize) -> &str {
         let start = column.checked_sub(1).map_or(Some(0), |before| Some(self.ends.get(before)? + 1));
         let range = start.zip(self.ends.get(column)).map(|(start, end)| start..*end);
         range.and_then(|range| self.text.get(range)).unwrap_or_default()
     }
 
-    /// Returns a cell as a number. `name` is the column name for errors.
+    /// Returns a cell of the current row as a number. `name` is the column name for the error message.
     ///
     /// # Errors
     /// The cell is not a number.
@@ -208,7 +208,7 @@ fn unquote(line: &str, text: &mut String, ends: &mut Vec<usize>) -> Result<(), S
                 text.push_str(&inside[..end]);
                 inside = &inside[end + 1..];
                 match inside.strip_prefix('"') {
-                    // A doubled quote stands for one.
+                    // Two quotes in a quoted cell stand for one quote.
                     Some(more) => {
                         text.push('"');
                         inside = more;

@@ -1,27 +1,27 @@
 //! Selection of the rows and events that are written, and rounding of their values.
 //!
-//! Tables, plots and fingerprints contain the selected data only. Plots drawn again from the tables are therefore identical. Evaluations
-//! use all data.
+//! Tables, plots and fingerprints contain only the selected data, so plots drawn again from the tables are identical. Evaluations use all
+//! data.
 
 use std::fmt::Write;
 use stickslip_drive::{Channel, Source};
 use stickslip_scenario::{Written, WrittenEvents};
 
-/// Number of blocks into which the events before thinning are divided. Thinned events are kept in whole blocks.
+/// Number of blocks into which the first `most` events are divided. Thinning keeps or drops whole blocks of this length.
 const BLOCKS: u64 = 100;
 
-/// Selection state of a run.
+/// Selection of the written rows and events of a run, and event counts so far.
 pub(crate) struct Selection {
     written: Written,
-    /// Number of events within the window and of the selected kinds and contacts.
+    /// Number of selected events: within the time window, and of the selected kinds and contacts.
     asked: u64,
-    /// Number of these events that were written.
+    /// Number of selected events that were written.
     taken: u64,
     /// Number of all events.
     seen: u64,
-    /// Last event time before the first event that was thinned out, s. Events at the same time may be written partly.
+    /// Last event time before that of the first dropped event, s. All selected events up to this time are written.
     whole_until: Option<f64>,
-    /// Time of the last selected event, and of the last one before this time, s.
+    /// Time of the last selected event, and the previous different event time, s.
     last: f64,
     before: f64,
     /// Whether each channel is rounded.
@@ -38,7 +38,7 @@ pub struct TakenEvents {
     pub seen: u64,
     /// Number of written events.
     pub taken: u64,
-    /// Time up to which the selected events are complete, s, if they were thinned.
+    /// If events were thinned: time up to which the selected events are complete, s.
     pub whole_until: Option<f64>,
 }
 
@@ -73,7 +73,7 @@ impl Selection {
 
     /// Returns whether an event at time t, s, is written.
     ///
-    /// The decision does not depend on later events. Therefore a resumed run writes the same events as an uninterrupted one.
+    /// The decision does not depend on later events. Therefore resumed and uninterrupted runs write the same events.
     pub(crate) fn takes(&mut self, source: Source, kind: &str, t: f64) -> bool {
         self.seen += 1;
         let ([from, to], events) = (self.written.window, &self.written.events);
@@ -122,10 +122,10 @@ fn is_asked(events: &WrittenEvents, source: Source, kind: &str) -> bool {
     of_kind && of_contact
 }
 
-/// Returns whether the event with this number, from 0, is written. The first `most` events are all written.
+/// Returns whether the selected event with this number, from 0, is written. All of the first `most` events are written.
 ///
-/// Of the events from 2ᵏ `most` to 2ᵏ⁺¹ `most`, one block of `most`/100 in 2ᵏ⁺¹ is written. Doubling the number of events thus adds
-/// `most`/2 written events.
+/// Events with numbers from 2ᵏ `most` to 2ᵏ⁺¹ `most` form blocks of `most`/100 events; every 2ᵏ⁺¹-th block is written. Doubling the number
+/// of events thus adds `most`/2 written events.
 fn is_taken(number: u64, most: u64) -> bool {
     if number < most {
         return true;

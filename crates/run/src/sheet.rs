@@ -1,4 +1,4 @@
-//! Writer of CSV files with seals.
+//! Writer of CSV files that counts the rows and computes the SHA-256 (the seal).
 
 use crate::digest::Digest;
 use crate::seal::Seal;
@@ -11,12 +11,12 @@ const BLOCK: usize = 1 << 16;
 /// Maximum size of the last block, in bytes, unless its last line is unusually long.
 pub(crate) const LAST_BLOCK: usize = BLOCK + BLOCK / 8;
 
-/// Writer of a CSV file. Fields are written directly to a block, and blocks to the file and to the hash.
+/// Writer of a CSV file. Cells are appended to a block in memory, and full blocks are written to the file and hashed.
 ///
-/// After a write error, the file ends with its last complete block. Later data are lost, and the error is returned at the end.
+/// After a write error, the file ends with its last complete block. Later data are lost, and [`Self::finish`] returns the error.
 pub(crate) struct Sheet<F = NamedTempFile> {
     file: F,
-    /// Complete lines and the current one. Every field ends with a comma; the last comma of a line becomes the line end.
+    /// Complete lines and the current line. Every cell ends with a comma, and the last comma of a line becomes the line end.
     block: Vec<u8>,
     digits: zmij::Buffer,
     /// Digest of the written data.
@@ -24,9 +24,9 @@ pub(crate) struct Sheet<F = NamedTempFile> {
     /// Numbers of rows in the file and in the block.
     rows: [u64; 2],
     failure: Option<io::Error>,
-    /// Whether a block has been written.
+    /// Whether a block has been written to the file.
     has_block: bool,
-    /// The first block and its number of rows, if it could not be written.
+    /// If the first block could not be written: the block and its number of rows.
     first: Option<(Vec<u8>, u64)>,
 }
 
@@ -36,7 +36,7 @@ pub(crate) trait Target: Write {
     fn cut(&mut self, length: u64) -> io::Result<()>;
 }
 
-/// A complete sheet.
+/// A complete CSV file.
 pub(crate) struct Written<F = NamedTempFile> {
     pub(crate) file: F,
     pub(crate) seal: Seal,
@@ -83,7 +83,7 @@ impl<F: Target> Sheet<F> {
         }
     }
 
-    /// Writes a number with the shortest digits that give the same value when read.
+    /// Writes a number with the fewest digits that give the same value when read.
     #[inline(always)]
     pub(crate) fn number(&mut self, value: f64) {
         // This formatter is several times faster than that of the standard library.
@@ -108,7 +108,7 @@ impl<F: Target> Sheet<F> {
         self.failure.is_some()
     }
 
-    /// Writes the block completely or not at all.
+    /// Writes the current block to the file, completely or not at all.
     fn flush(&mut self, is_last: bool) {
         let rows = std::mem::take(&mut self.rows[1]);
         if self.failure.is_none() {

@@ -14,7 +14,7 @@ pub struct Springs {
     pub contact: String,
     /// Times, s.
     pub time: Vec<f64>,
-    /// Positions of the springs, m, equal at all times.
+    /// Positions of the springs, m. The positions are the same at all times.
     pub x: Vec<f64>,
     /// Slip states of all springs, time by time.
     pub states: Vec<SpringState>,
@@ -54,7 +54,7 @@ impl Springs {
         Self { contact: contact.to_owned(), time: Vec::new(), x: Vec::new(), states: Vec::new() }
     }
 
-    /// Adds the next spring at the last time. The first time determines the positions of the springs.
+    /// Adds the next spring of the current time. The springs at the first time determine the positions.
     fn push(&mut self, x: f64, state: SpringState, rows: &Rows) -> Result<(), FrameError> {
         if self.time.len() == 1 {
             self.x.push(x);
@@ -73,7 +73,7 @@ impl Springs {
         }
     }
 
-    /// Checks that the last time has as many springs as the first one.
+    /// Checks that the table has as many springs at the last time as at the first time.
     fn check_whole(&self, rows: &Rows) -> Result<(), FrameError> {
         if self.states.len() == self.time.len() * self.x.len() {
             return Ok(());
@@ -84,7 +84,7 @@ impl Springs {
     }
 }
 
-/// Returns the slip state for the word in a column.
+/// Returns the slip state for the word in a column of the current row.
 pub(crate) fn spring_state(rows: &Rows, column: usize) -> Result<SpringState, FrameError> {
     Ok(match rows.text(column) {
         "open" => SpringState::Open,

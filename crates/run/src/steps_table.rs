@@ -1,4 +1,4 @@
-//! `steps.csv`: all steps of a drive.
+//! Table `steps.csv`: all steps of a drive, one per period.
 
 use crate::sheet::{Sheet, Written};
 use std::io;
@@ -6,7 +6,7 @@ use stickslip_measure::Stride;
 use stickslip_quantity::columns::STEPS;
 use tempfile::NamedTempFile;
 
-/// Writer of the table.
+/// Writer of `steps.csv`.
 pub(crate) struct StepsTable {
     sheet: Sheet,
     count: usize,
@@ -17,7 +17,7 @@ impl StepsTable {
         Self { sheet: Sheet::new(file, STEPS.names.iter().copied()), count: 0 }
     }
 
-    /// Writes the step of a period. The first argument is the start and the end of the period, s.
+    /// Writes the step of a drive period from `start` to `end`, s.
     pub(crate) fn write(&mut self, [start, end]: [f64; 2], stride: Stride) {
         self.count += 1;
         self.sheet.word(&self.count.to_string());

@@ -39,7 +39,7 @@ pub(crate) use steps::flight;
 pub use steps::{DriveSummary, SettlingSummary, Steady, step_bounds};
 pub use stickslip_measure::contact_cycles::JudgedCycle;
 
-/// Largest number of names in the note about values that are not finite.
+/// Maximum number of keys that the note about values that are not finite names.
 const NAMED: usize = 5;
 /// Advice for a disk without space.
 const UNWRITTEN_ADVICE: &str = "free disk space, choose another folder with --out, or write fewer rows";
@@ -144,7 +144,7 @@ struct Stop {
 }
 
 impl Stop {
-    /// Returns the reason of an early end. A failed write takes precedence over everything else.
+    /// Returns the reason why a run ended early. A write error takes precedence over all other reasons.
     fn of(outcome: &Outcome) -> Option<Self> {
         let unwritten = |failure: &io::Error| Self {
             message: format!("the results could not be written completely: {}", words(failure)),
@@ -236,7 +236,7 @@ impl Summary {
         let value_if = |wanted| (word == wanted).then_some(Real(value));
         let (counts, taken) = (outcome.state.counts(), outcome.events);
         notes.extend(thinned(taken));
-        // The record adds gross slip of rows of springs, which the run does not locate; fixed time steps locate nothing.
+        // The record contains gross slip events of spring rows, which the run does not count; fixed time steps locate no events.
         let others = word == "tolerance" && taken.taken != counts.events;
         let drivers = drivers::of(job, &outcome.state);
         Self {
@@ -302,12 +302,12 @@ impl Summary {
         self.tables = Parts(seals);
     }
 
-    /// Returns reason and advice if the run ended early.
+    /// If the run ended early, returns the reason and advice.
     pub fn stop(&self) -> Option<(&str, &'static str)> {
         self.error.as_ref().map(|stop| (stop.message.as_str(), stop.advice))
     }
 
-    /// Returns the notes for the terminal: that events were thinned out, and why no step is reported.
+    /// Returns the notes for the terminal: about thinned events, and about the reason for missing steps.
     pub fn printed_notes(&self) -> impl Iterator<Item = &str> {
         let is_printed = |note: &&str| note.starts_with(EVENTS) || note.starts_with(steps::NO_STEP);
         self.notes.iter().map(String::as_str).filter(is_printed)
@@ -318,7 +318,7 @@ impl Summary {
         &self.files
     }
 
-    /// Returns indented JSON.
+    /// Returns the summary as indented JSON.
     pub fn pretty(&self) -> io::Result<String> {
         let text = serde_json::to_string_pretty(self)?;
         Ok(match self.noted(&text)? {
@@ -327,15 +327,15 @@ impl Summary {
         } + "\n")
     }
 
-    /// Returns JSON in one line.
+    /// Returns the summary as one line of JSON.
     pub fn line(&self) -> io::Result<String> {
         let text = serde_json::to_string(self)?;
         Ok(self.noted(&text)?.map_or(text, |noted| noted.to_string()))
     }
 
-    /// Returns the summary with a note about values that are not finite. Returns `None` if all are finite.
+    /// Returns the summary with a note about values that are not finite. Returns `None` if all values are finite.
     fn noted(&self, text: &str) -> io::Result<Option<Value>> {
-        // A name may contain the word, too.
+        // A name may also contain the word "null".
         if !text.contains("null") {
             return Ok(None);
         }

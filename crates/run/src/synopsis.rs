@@ -19,11 +19,11 @@ const MOST_WORD: usize = 1024;
 /// Maximum total size of the full names of all values, in bytes.
 const MOST_NAMES: usize = 128 << 20;
 
-/// Contents of a summary.
+/// Contents of the file `summary.json`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Synopsis {
     folder: PathBuf,
-    /// The JSON value.
+    /// Contents of the file as a JSON value.
     pub summary: Value,
 }
 
@@ -73,7 +73,7 @@ pub enum SynopsisError {
     },
 }
 
-/// Returns advice on completing the results of a folder.
+/// Returns the advice to run the scenario again if the results of a folder are incomplete.
 fn again(folder: &Path) -> String {
     let resume = if checkpoint::exists(folder) {
         format!(", or resume it from its checkpoint with `stickslip run --resume {}`", folder.display())
@@ -109,7 +109,7 @@ impl Synopsis {
         self.folder.join(SUMMARY)
     }
 
-    /// Returns a string by its JSON pointer; empty if it does not exist.
+    /// Returns a string by its JSON pointer. Returns an empty string if the value does not exist.
     pub fn text(&self, pointer: &str) -> &str {
         self.summary.pointer(pointer).and_then(Value::as_str).unwrap_or_default()
     }
@@ -129,7 +129,7 @@ impl Synopsis {
         self.summary.get(key).and_then(Value::as_bool).unwrap_or(false)
     }
 
-    /// Returns the error that a key is missing.
+    /// Returns the error for a missing key.
     pub fn lacks(&self, key: &'static str) -> SynopsisError {
         SynopsisError::NoSummary { path: self.path(), key }
     }
@@ -152,10 +152,10 @@ impl Synopsis {
     }
 }
 
-/// Tables that runs write, without those about the interior of contacts.
+/// Tables that every run may write. Tables about the interior of contacts are not included.
 const SEALED: [&str; 4] = [TRACE, EVENTS, CYCLES, STEPS];
 
-/// Returns a description of invalid names or words in a summary. Returns `None` if there are none.
+/// Returns a description of invalid names or words in a summary. Returns `None` if all names and words are valid.
 fn fault(summary: &Value) -> Option<String> {
     // These keys are not printed by other commands, so they are not checked.
     const UNTOLD: [&str; 3] = ["title", "error", "notes"];
@@ -180,18 +180,18 @@ fn fault(summary: &Value) -> Option<String> {
     }
 }
 
-/// Properties of the names and words of a summary.
+/// Sizes of the names and words in a summary.
 #[derive(Debug, Default)]
 struct Words {
     has_control: bool,
-    /// Size of the longest one, in bytes.
+    /// Size of the longest name or word, in bytes.
     longest: usize,
     /// Total size of the full names of all values, such as `steps.steady.step_m`, in bytes.
     names: usize,
 }
 
 impl Words {
-    /// Adds a value and all values in it. `before` is the size of the name prefix, in bytes.
+    /// Adds a value and all values that it contains. `before` is the size of the prefix of its full name, in bytes.
     fn read(&mut self, name: &str, value: &Value, before: usize) {
         self.word(name);
         let before = before + name.len() + 1;

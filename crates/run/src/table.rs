@@ -11,12 +11,12 @@ use tempfile::NamedTempFile;
 pub(crate) struct Table {
     sheet: Sheet,
     columns: Columns,
-    /// Whether states are written as numbers.
+    /// Whether contact states are written as numbers instead of words.
     states: bool,
 }
 
 impl Table {
-    /// Creates a table with `extra` text columns after the time. `states` selects numbers instead of words for states.
+    /// Creates a table with the text columns `extra` after the time. `states` selects numbers instead of words for contact states.
     pub(crate) fn new(file: NamedTempFile, columns: Columns, extra: &[&str], states: bool) -> Self {
         let mut names = columns.names();
         let time = names.next();

@@ -1,9 +1,9 @@
-//! Solution of one contact of a scenario without a run, by section 4.4 of the handbook.
+//! Solution of a single contact of a scenario without a run, by section 4.4 of the *Handbook of Contact Mechanics*.
 //!
 //! In reading order: [`Subject`] (the contact); [`Sheet`] (its constants and curves) with [`Loading`] (one first loading); [`History`] (a
-//! load history) and [`Walk`] (forces, fields, springs and friction work along it); [`write()`] (the files).
+//! load history) and [`Walk`] (its forces, fields, springs and friction work); [`write()`] (the output files).
 //!
-//! All values follow from the exact memory curve, even if the scenario selects a row of springs.
+//! All values follow from the exact curve of the slip memory, even if the scenario selects a row of springs.
 
 mod history;
 mod loading;
@@ -26,7 +26,7 @@ pub use write::{Beside, CONTACT, TABLES, json, table_files, write};
 /// Default extent of fields, springs and profiles, relative to the largest contact radius.
 pub const BEYOND: f64 = 1.5;
 
-/// Returns the definitions of all keys of `contact.json` and of all columns of the tables with it.
+/// Returns the definitions of all keys of `contact.json` and of all columns of the accompanying tables.
 #[must_use]
 pub fn definitions() -> Vec<stickslip_quantity::Definition> {
     let tables = TABLES.iter().flat_map(stickslip_quantity::Columns::definitions);

@@ -1,7 +1,7 @@
 //! Warnings about a run or its scenario, printed on stderr and stored in the `warnings` of `summary.json`.
 //!
-//! Modules add a [`Warning`] to the list that [`Summary::new`](crate::Summary::new) collects. The program prints the list. With `--strict`,
-//! a run with warnings counts as failed.
+//! [`Summary::new`](crate::Summary::new) collects the warnings of all modules, and the program prints them. With `--strict`, a run with
+//! warnings counts as failed.
 
 use crate::job::Job;
 use crate::outcome::Outcome;
@@ -23,7 +23,7 @@ pub fn of_check(job: &Job) -> Vec<Warning> {
 
 /// Returns the warnings about the scenario of a job, sorted by key.
 ///
-/// Warnings about the wording of the file are omitted, so that a resumed run, which reads the resolved scenario, has the same warnings.
+/// Warnings about the text of the file are omitted. Therefore a resumed run, which reads the resolved scenario, has the same warnings.
 pub fn of_scenario(job: &Job) -> Vec<Warning> {
     let odd = job.warnings();
     let told = odd.iter().filter(|odd| odd.kind != stickslip_scenario::Warning::WORDING);
@@ -32,7 +32,7 @@ pub fn of_scenario(job: &Job) -> Vec<Warning> {
     warnings
 }
 
-/// Returns the rounding error of the initial positions, relative to the smallest natural displacement of a contact.
+/// Returns the rounding error of the initial positions, relative to the smallest natural displacement scale of a contact.
 fn finest(job: &Job) -> f64 {
     let places = job.scenario.scene.bodies.iter().map(|body| body.part.x.position.abs());
     let contacts = 0..job.scenario.scene.contacts.len();
@@ -74,7 +74,7 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     warnings
 }
 
-/// Returns a warning about contacts between free bodies that opened in a run by frames.
+/// Returns a warning if contacts between free bodies opened in a run with the stepper `frames`.
 fn impacts(job: &Job, outcome: &Outcome) -> Option<Warning> {
     let Stepper::Frames { accuracy, .. } = job.model.effective(job.scenario.plan.stepper) else {
         return None;

@@ -39,11 +39,11 @@ pub(crate) struct Document {
     pub(crate) root: Place,
     /// Tables whose points are in separate files.
     pub(crate) tables: Vec<TableFile>,
-    /// Folder of these files; `None` if the scenario may not name files.
+    /// Folder that contains the table files; `None` if the scenario may not name files.
     pub(crate) base: Option<PathBuf>,
     /// Name of overrides in messages, such as `--set`.
     pub(crate) word: &'static str,
-    /// Schema for help texts.
+    /// Schema from which help texts are taken.
     pub(crate) guide: &'static Guide,
 }
 
@@ -92,7 +92,7 @@ impl Document {
         self.tables.iter().find(|table| table.has(path)).map(TableFile::path)
     }
 
-    /// Removes all tables, as before they were read.
+    /// Removes all tables, which restores the document before the tables were read.
     pub(crate) fn forget_tables(&mut self) {
         self.tables.clear();
         self.sources.retain(|source| !matches!(source.kind, SourceKind::Table(_)));
@@ -182,8 +182,8 @@ impl Document {
         span.unwrap_or_else(|| self.locate(&fault.path, fault.mark))
     }
 
-    /// Returns the sort key of an error: source, position in it, position in a table. For a table, source and position are those of the
-    /// key that names its file.
+    /// Returns the sort key of an error: source, position in the source, position in a table. For an error in a table, source and position
+    /// are those of the key that names the table's file.
     pub(crate) fn order(&self, fault: &Fault) -> (usize, usize, usize) {
         let span = self.span(fault);
         match self.sources.get(span.source).map(|source| &source.kind) {
@@ -208,7 +208,7 @@ impl Document {
         }
     }
 
-    /// Returns the span of the deepest part of a path that exists in the file. For a value of several lines, the span is that of its key.
+    /// Returns the span of the deepest part of a path that exists in the file. For a value of several lines, returns the span of its key.
     fn locate(&self, path: &KeyPath, mark: Mark) -> Span {
         let (place, depth) = self.root.deepest(path);
         let whole = depth == path.0.len();

@@ -84,7 +84,7 @@ pub struct Warning {
 }
 
 impl Warning {
-    /// Category of warnings about the wording of the file. A resolved scenario does not give them.
+    /// Category of warnings about the wording of the file. A resolved scenario causes no warnings of this category.
     pub const WORDING: &'static str = "wording";
 }
 

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthChar;
 pub struct Excerpt {
     /// Line number, from 1.
     pub line: usize,
-    /// Column of the marker, from 1, counted in Unicode scalar values. A tab counts as one.
+    /// Column of the marker, from 1, counted in Unicode scalar values. A tab counts as one column.
     pub column: usize,
     /// Whole line without its line end.
     pub text: String,
@@ -18,7 +18,7 @@ pub struct Excerpt {
 
 /// Maximum number of terminal cells shown of a line.
 const WIDTH: usize = 100;
-/// Number of cells before the marker if the line is cut.
+/// Number of terminal cells shown before the marker if the line is cut.
 const BEFORE: usize = 40;
 
 impl Excerpt {
@@ -77,7 +77,7 @@ fn floor_boundary(text: &str, index: usize) -> usize {
     index
 }
 
-/// Returns the number of characters that fit into the given number of cells.
+/// Returns the number of characters that fit into the given number of terminal cells.
 fn fitting<'a>(cells: impl Iterator<Item = &'a (char, usize)>, room: usize) -> usize {
     let mut taken = 0;
     cells

@@ -6,7 +6,7 @@ use crate::place::Span;
 use serde_json::Value;
 use std::fmt::Display;
 
-/// Half of an entry that the report marks: key or value.
+/// Part of an entry that the report marks: the key or the value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mark {
     /// Value.
@@ -34,7 +34,7 @@ pub(crate) enum Mend {
     With(Value),
     /// Name of an existing part instead of an unknown one. If there is none, an example of the part is added.
     Name { section: &'static str, name: String, instead: Option<String> },
-    /// No replacement: the value can be read, but at the given path it is not the intended one.
+    /// No replacement: the value is readable, but the value at the given path is not the intended one.
     Leave(Option<KeyPath>),
     /// No replacement: nothing else can be checked.
     Nothing,

@@ -189,7 +189,7 @@ impl Guide {
     }
 
     /// Returns the paths of the objects that may contain a key. Of all such objects, those with the longest common path with `sought` are
-    /// returned, and of these the ones closest to the root. Names of parts that are not in common are written as NAME.
+    /// returned, and of these the objects closest to the root. Names of parts that are not in common are written as NAME.
     pub(crate) fn homes(&self, sought: &KeyPath, key: &str) -> Vec<String> {
         let mut homes = self.places(sought, key);
         // Keys of plots are no help for a coordinate.

@@ -1,9 +1,9 @@
 //! Reads and checks scenario files and study files. No other crate reads this JSON.
 //!
-//! [`Scenario::load`] converts a file into a [`Scene`](stickslip_drive::Scene) (the model) and a [`Plan`](stickslip_drive::Plan) (the
-//! run). The module `form` contains types that mirror the keys of the file. The module `meaning` converts them into the model. This crate
-//! checks keys, units and ranges. The crate `stickslip-contact` checks materials, profiles and contacts; `stickslip-drive` checks model
-//! and run when the model is built. [`Scenario::refusal`] gives their typed errors a message and a position in the file.
+//! [`Scenario::load`] converts a file into a [`Scene`](stickslip_drive::Scene) (the model) and a [`Plan`](stickslip_drive::Plan) (the run).
+//! The module `form` contains types that mirror the keys of the file. The module `meaning` converts them into the model. This crate checks
+//! keys, units and ranges. The crate `stickslip-contact` checks materials, profiles and contacts; `stickslip-drive` checks model and run
+//! when the model is built. [`Scenario::refusal`] gives the typed errors of both crates a message and a position in the file.
 //!
 //! Every error is a [`ScenarioError`] with positions in the file, found through one index from key paths to positions. All errors of a
 //! file are reported together. Follow-on errors, which only result from another error, are suppressed. Values that are allowed but

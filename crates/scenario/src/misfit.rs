@@ -13,7 +13,7 @@ pub(crate) enum Misfit {
     UnknownKind(String),
     /// Missing key.
     Missing(&'static str),
-    /// Object without the key that selects a variant, or with several.
+    /// Object without a key that selects a variant, or with several such keys.
     NotOneKind,
     /// Value of another type.
     Unfit(Wanted),
@@ -31,7 +31,7 @@ pub(crate) enum Wanted {
     Text,
     List,
     Object,
-    /// Name of a variant, or object with one key that is such a name.
+    /// Name of a variant, or an object whose only key is the name of a variant.
     Kind,
     /// No contents, because the variant has none.
     Nothing,
@@ -81,7 +81,7 @@ impl de::Error for Misfit {
 
 impl std::error::Error for Misfit {}
 
-/// serde requires this implementation. Users see the message of a refusal.
+/// serde requires this implementation. Users see the message from the module `refusal` instead.
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{self:?}")

@@ -21,8 +21,8 @@ const TOLD: usize = 20;
 const SOUGHT: usize = 64;
 /// Number of replacements of a value before its parent is replaced.
 const TRIES: u32 = 2;
-/// Limit of bytes read in all repetitions, and minimum counted for one. Bytes instead of time are limited, so that reports are equal on
-/// all machines.
+/// Limit of the bytes read in all repetitions, and minimum number of bytes counted per repetition. Bytes instead of time are limited, so
+/// that reports are equal on all machines.
 const WORK: usize = 8 << 20;
 const LEAST_WORK: usize = 64 << 10;
 
@@ -63,7 +63,7 @@ pub(crate) fn all(mut document: Document, first: Vec<Fault>) -> ScenarioError {
     mistakes.told(not_checked)
 }
 
-/// Sort key of a report: source, position in it, and position in a table. A table has the position of the key that names its file.
+/// Sort key of a report: source, position in the source, and position in a table. A table has the position of the key that names its file.
 pub(crate) type Order = (usize, usize, usize);
 
 struct Mistakes {
@@ -119,7 +119,7 @@ impl Mistakes {
         Some(meaning.and_then(|meaning| meaning::start(&meaning)))
     }
 
-    /// Records an error unless it is a follow-on error, and repairs it. Returns false if no repair is possible.
+    /// Records an error unless it is a follow-on error, and replaces the invalid value. Returns false if no replacement is possible.
     fn take(&mut self, document: &mut Document, mut fault: Fault) -> bool {
         if !self.follows(&fault) {
             if self.strayed(document, &fault) {
@@ -151,7 +151,7 @@ impl Mistakes {
         })
     }
 
-    /// Returns whether a missing key was given elsewhere or under an unknown name whose value fits, and repairs it.
+    /// Returns whether the value of a missing key was found elsewhere or under an unknown name, and repairs the scenario in this case.
     fn strayed(&mut self, document: &mut Document, fault: &Fault) -> bool {
         if !matches!(fault.bearing.mend, Mend::Add(_)) {
             return false;
@@ -183,7 +183,7 @@ impl Mistakes {
         false
     }
 
-    /// Replaces the value of an error by a valid one. If none fits, the parent is replaced.
+    /// Replaces the value of an error by a valid one. If no replacement fits, the parent of the value is replaced.
     fn mend(&mut self, root: &mut Value, fault: &Fault) -> bool {
         let mut target = fault.subject();
         match &fault.bearing.mend {
@@ -261,8 +261,7 @@ impl Mistakes {
     }
 }
 
-/// Repairs a value in one of two ways: the value known to the check, otherwise an example, or removal. If the key is wrong, removal is
-/// tried first.
+/// Replaces an invalid value by the value known to the check or by an example, or removes it. If the key is wrong, removal is tried first.
 fn attempt(root: &mut Value, fault: &Fault, target: &KeyPath, (is_first, key_goes): (bool, bool)) -> bool {
     match &fault.bearing.mend {
         Mend::With(value) if is_first => return set(root, target, value.clone()),
@@ -322,7 +321,7 @@ fn set(root: &mut Value, path: &KeyPath, value: Value) -> bool {
     }
 }
 
-/// Removes an entry from an object with at least two entries. Returns false if there is none.
+/// Removes an entry from an object with at least two entries. Returns false if there is no such entry.
 fn remove(root: &mut Value, path: &KeyPath) -> bool {
     let Some((Step::Key(key), parent)) = path.0.split_last() else { return false };
     match parent.iter().try_fold(root, step) {

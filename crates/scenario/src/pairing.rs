@@ -36,7 +36,7 @@ impl Scenario {
         Some((material.youngs_modulus.si, material.poisson_ratio))
     }
 
-    /// Returns the key path of the stiffness or capacitance of an actuator: its own key if given, otherwise that of its data sheet.
+    /// Returns the key path of the stiffness or capacitance of an actuator: its own key if given, otherwise the key of its data sheet.
     pub fn stack_path(&self, actuator: &str, key: &str) -> String {
         let actuators = &self.form.actuators;
         let form = actuators.find(actuator).and_then(|place| actuators.0.get(place)).map(|(_, form)| form);

@@ -191,7 +191,7 @@ fn dimension(schema: &Value, deepest: usize) -> (Option<Kind>, Takes) {
     parts.fold((None, Takes::Nothing), |(kind, takes), (other, also)| (kind.or(other), takes.max(also)))
 }
 
-/// Returns the dimension of the values of a waveform: that of the first quantity that follows it, by name or in place.
+/// Returns the dimension of a waveform's values: the dimension of the first quantity that follows the waveform, by name or inline.
 fn followed(tree: &Value, path: &KeyPath) -> Option<Kind> {
     let follows = Step::Key("follows".to_owned());
     if let Some(depth) = path.0.iter().position(|step| *step == follows) {

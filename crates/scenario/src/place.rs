@@ -28,7 +28,7 @@ pub(crate) enum Inner {
 }
 
 impl Place {
-    /// Returns the place one step deeper.
+    /// Returns the position of the value one step deeper in the key path.
     pub(crate) fn step(&self, step: &Step) -> Option<&Self> {
         match (&self.inner, step) {
             (Inner::Object(entries), Step::Key(key)) => {
@@ -49,7 +49,7 @@ impl Place {
         }
     }
 
-    /// Returns the place of the deepest existing part of a path, and its number of steps.
+    /// Returns the position of the deepest existing part of a path, and the number of steps to this part.
     pub(crate) fn deepest(&self, path: &KeyPath) -> (&Self, usize) {
         let mut here = self;
         for (i, step) in path.0.iter().enumerate() {
@@ -61,7 +61,7 @@ impl Place {
         (here, path.0.len())
     }
 
-    /// Removes the place at a path.
+    /// Removes the position of the value at a path.
     pub(crate) fn clear(&mut self, path: &[Step]) {
         let Some((Step::Key(last), parent)) = path.split_last() else { return };
         let parent = parent.iter().try_fold(self, |here, step| here.step_mut(step));
@@ -70,7 +70,7 @@ impl Place {
         }
     }
 
-    /// Sets the place at a path. Missing parents become objects, or a list for index 0.
+    /// Sets the position of the value at a path. Missing parents become objects, or a list for index 0.
     pub(crate) fn put(&mut self, path: &[Step], place: Self) {
         let Some((first, rest)) = path.split_first() else {
             self.value = place.value;

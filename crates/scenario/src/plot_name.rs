@@ -60,7 +60,7 @@ impl PlotName {
     /// Maximum number of user-defined plots of channels over a channel.
     pub const MOST_OWN: usize = crate::meaning::plots::MOST_OWN;
 
-    /// Returns the name in the file.
+    /// Returns the name of the plot in the scenario file.
     pub fn name(self) -> &'static str {
         match self {
             Self::Layout => "layout",

@@ -20,7 +20,7 @@ pub(crate) const HELP: char = '\u{1e}';
 /// Largest magnitude of a quantity in its SI unit. Products of four such quantities, as in energies, still are finite numbers.
 pub(crate) const LARGEST: f64 = 1e30;
 
-/// Smallest magnitude of a quantity that must be above zero. Divisions by it stay finite.
+/// Smallest magnitude of a quantity that must be above zero. Divisions by this value stay finite.
 pub(crate) const SMALLEST: f64 = 1e-40;
 
 /// Dimension as a type.
@@ -55,7 +55,7 @@ macro_rules! dimensions {
             )*
         }
         $(
-            #[allow(dead_code, reason = "what always may vary in time is used as a dimension only")]
+            #[allow(dead_code, reason = "some quantities are used only as dimensions")]
             pub(crate) type $name = Quantity<dimension::$name>;
         )*
     };

@@ -1,4 +1,4 @@
-//! Deserializer from JSON values to the Rust types of the keys. The deserializer differs from that of `serde_json` in its error type and
+//! Deserializer from JSON values to the Rust types of the keys. The deserializer differs from the one in `serde_json` in its error type and
 //! in one rule. A list never stands for an object with its values in order.
 //!
 //! If a value does not fit, the method that serde called gives the expected type. Types that accept several sorts of values use
@@ -17,7 +17,7 @@ fn unfit<T>(wanted: Wanted) -> Result<T, Misfit> {
     Err(Misfit::Unfit(wanted))
 }
 
-/// Returns whether a description is that of a derived reader of fixed-length lists.
+/// Returns whether the description of an expected value comes from a derived reader of fixed-length lists.
 fn is_plain(called: &str) -> bool {
     ["an array of length", "a tuple of size"].iter().any(|plain| called.starts_with(plain))
 }

@@ -84,7 +84,7 @@ impl Refusal<'_> {
         fault.mend(Mend::Rename(meant.to_owned())).against_path(parent)
     }
 
-    /// Returns the keys allowed here, and the objects that have this key.
+    /// Returns help for an unknown key: the keys allowed in its object, and the objects that allow this key.
     fn elsewhere(&self, parent: &KeyPath, name: &str, known: &[&str]) -> Option<String> {
         let here = suggest::help("", known.iter().copied());
         match self.guide.homes(parent, name).as_slice() {
@@ -150,7 +150,7 @@ impl Refusal<'_> {
         if unnamed { fault.mend(Mend::Around(section)) } else { fault }
     }
 
-    /// Returns the error for a variant that has contents but must stand alone.
+    /// Returns the error for a variant that has contents although it allows none.
     fn with_inside(self) -> Fault {
         let kind = match self.path.0.last() {
             Some(Step::Key(kind)) => shown(kind),
@@ -168,7 +168,7 @@ impl Refusal<'_> {
         Fault::new(self.path, message).maybe_help(example.map(|example| format!("write {example}")))
     }
 
-    /// Returns the error for an object with no key or several keys instead of the one that selects the variant.
+    /// Returns the error for an object with no key or several keys, where exactly one key selects the variant.
     fn not_one_kind(mut self) -> Fault {
         let kinds = self.guide.kinds(&self.path);
         let given: Vec<String> = match self.value() {
@@ -215,7 +215,7 @@ impl Refusal<'_> {
         named.then(|| format!("each part has a name: \"{parts}\": {{\"NAME\": {{\"{name}\": …}}}}"))
     }
 
-    /// Returns the value in the file, strings in quotes.
+    /// Returns the value as in the file, with strings in quotes.
     fn came(&self) -> Option<String> {
         let written = self.document.written(&self.path)?;
         // Overrides contain strings without quotes.

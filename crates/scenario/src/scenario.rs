@@ -51,7 +51,7 @@ pub struct Scenario {
     pub plots: Vec<PlotName>,
     /// User-defined plots of channels over a channel, which are part of `plots`.
     pub own_plots: Vec<OwnPlot>,
-    /// Data of each actuator that the model does not contain.
+    /// Data of each actuator in addition to those in the model.
     pub stacks: Vec<Piezo>,
     /// Warnings about values that are allowed but implausible, with their positions.
     pub warnings: Vec<Warning>,
@@ -102,7 +102,7 @@ impl Scenario {
         Self::read(text, (name, "--set"), Some(base.as_ref()), overrides)
     }
 
-    /// Reads a scenario without a folder, such as one that is embedded in a plot. It may not name files.
+    /// Reads a scenario without a folder, such as one that is embedded in a plot. Such a scenario may not name files.
     ///
     /// # Errors
     /// All errors of the text, with their positions.
@@ -197,14 +197,14 @@ impl Scenario {
         serde_json::to_value(&self.form).map(|value| resolved::print(&value)).unwrap_or_default()
     }
 
-    /// Returns the error with which model or plan are refused, with positions in the file, together with all other errors.
+    /// Converts an error of model or plan to an error with positions in the file, together with all other errors of the file.
     pub fn refusal(&self, error: &SceneError) -> ScenarioError {
         let fault = meaning::refused::fault(&self.scene, self.plan, error);
         mistakes::all(self.document.clone(), vec![fault])
     }
 
-    /// Returns the report of an error of another plan, such as one with a time integrator from the command line. It has no position in
-    /// the file.
+    /// Converts an error of another plan, such as a plan with a time integrator from the command line. The report has no position in the
+    /// file.
     pub fn refusal_of(&self, plan: Plan, error: &SceneError) -> Report {
         self.document.report(meaning::refused::fault(&self.scene, plan, error))
     }

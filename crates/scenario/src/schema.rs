@@ -123,7 +123,7 @@ fn without_null(schema: &mut Schema) {
     }
 }
 
-/// Adds missing keywords. Existing ones stay: the description of a key takes precedence over that of its type.
+/// Adds missing keywords. Existing keywords stay: the description of a key takes precedence over the description of its type.
 fn fill(schema: &mut Schema, more: Map<String, Value>) {
     for (key, value) in more {
         if schema.get(&key).is_none() {

@@ -34,7 +34,7 @@ const MOST_CHUNK: u64 = 1 << 20;
 pub struct StudyFile {
     /// Scenario with the values of `set`.
     pub scenario: Scenario,
-    /// Name of the scenario: the name of its file without extension; for an inline scenario that of the study file.
+    /// Name of the scenario: the name of its file without extension; for an inline scenario, the name of the study file.
     pub name: String,
     /// Sampling method, if given.
     pub sampling: Option<Sampling>,

@@ -109,8 +109,7 @@ impl Substance {
     }
 }
 
-/// Returns the class that a material name denotes, the most special one of a material. Returns `None` for an unknown name and for a name
-/// of several materials.
+/// Returns the most special class that a material name denotes. Returns `None` for an unknown name and for a name of several materials.
 pub fn substance(name: &str) -> Option<&'static Substance> {
     let words = |text: &str| -> Vec<String> {
         let plain = text.to_lowercase();

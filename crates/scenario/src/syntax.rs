@@ -158,7 +158,7 @@ struct Walk<'a> {
     origin: &'a Origin,
     path: KeyPath,
     faults: Vec<Fault>,
-    /// Numbers too large or too small for a floating-point number.
+    /// Ranges of numbers that are too large or too small for a floating-point number.
     unread: Vec<Range>,
 }
 

@@ -34,14 +34,14 @@ pub(crate) struct TableFile {
     path: KeyPath,
     /// Index of the file in the list of sources.
     source: usize,
-    /// Key of the list that the rows become.
+    /// Key of the list that receives the rows of the file.
     list: &'static str,
     /// Columns of the numbers of an entry; at least one for plain tables, none for tables of instruments.
     columns: Vec<usize>,
 }
 
 impl TableFile {
-    /// Returns whether a path is that of one of the rows.
+    /// Returns whether a path leads to a value in a row of the file.
     pub(crate) fn has(&self, path: &KeyPath) -> bool {
         let list = self.path.0.iter().cloned().chain([Step::Key(self.list.to_owned())]);
         KeyPath(list.collect()).holds(path)
@@ -68,7 +68,7 @@ impl TableFile {
     }
 }
 
-/// Replaces the files of all tables by their points. Returns whether there were any.
+/// Replaces the files of all tables by their points. Returns whether any table was in a file.
 pub(crate) fn inline(form: &mut Form, document: &mut Document) -> Result<bool, Fault> {
     let mut shelf = Shelf { document, bytes: 0 };
     let root = At::ROOT;
@@ -166,7 +166,7 @@ impl Shelf<'_> {
     }
 
     /// Reads rows of a file by the columns named under the given keys. Returns the rows and the dimensions in the headers. The argument
-    /// `list` is the key that the rows become. Without a recipe, the file is read as a plain table. If this fails, it is read as a table
+    /// `list` is the key that receives the rows. Without a recipe, the file is read as a plain table. If this fails, it is read as a table
     /// of an instrument, provided that no line has to be skipped.
     fn rows<const N: usize>(
         &mut self,
@@ -271,7 +271,7 @@ impl Shelf<'_> {
     }
 }
 
-/// Refuses names of columns and recipes without a file.
+/// Refuses column names and recipes if no file is given.
 fn no_columns(
     at: &At<'_>,
     columns: &[(&str, Option<String>)],

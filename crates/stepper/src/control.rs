@@ -2,14 +2,14 @@
 
 /// Proportional-integral (PI) step-size control.
 ///
-/// factor = safety · ε^-α · ε₋₁^β with β = 0.2/k and α = 1/k - 0.75 β, for an error estimate of order hᵏ. ε is the error of this
-/// step and ε₋₁ that of the last accepted step, both in units of the tolerance. After two rejections in a row, α is 1/p with the
-/// observed order p, at least the usual α and at most 1.
+/// factor = safety · ε^-α · ε₋₁^β with β = 0.2/k and α = 1/k - 0.75 β, for an error estimate of order hᵏ. ε is the error of this step and
+/// ε₋₁ the error of the last accepted step, in units of the tolerance. After two rejections in a row, α is 1/p with the observed order p,
+/// at least the usual α and at most 1.
 ///
 /// Source: Hairer, Nørsett, Wanner, *Solving ODEs I*, 2nd ed., section II.4, and Hairer, Wanner, *Solving ODEs II*, section IV.2
 /// (PI control); Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533 (rejections in a row).
 ///
-/// Its memory is part of the state of a run: it can be cloned and compared.
+/// The history of the control is part of the state of a run: it can be cloned and compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepControl {
     limits: StepLimits,
@@ -21,13 +21,13 @@ pub struct StepControl {
 /// Limits of a [`StepControl`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimits {
-    /// Safety factor of the step that would just meet the tolerance; 0.5 to 1, default 0.9.
+    /// Safety factor on the step that would just meet the tolerance; 0.5 to 1, default 0.9.
     pub safety: f64,
     /// Smallest ratio of two successive steps, below 1; default 0.2.
     pub shrink: f64,
     /// Largest ratio of two successive steps, above 1; default 6.
     pub grow: f64,
-    /// Largest step, s; default unbounded.
+    /// Maximum step, s; unbounded by default.
     pub longest: f64,
 }
 
@@ -38,13 +38,13 @@ impl Default for StepLimits {
     }
 }
 
-/// Memory of a step-size control.
+/// Data of earlier attempts that a step-size control uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepHistory {
     /// Natural logarithm of the error of the last accepted step, in units of the tolerance. At least the logarithm of
     /// [`StepHistory::FLOOR`].
     pub log_error: f64,
-    /// Last attempt, if it was rejected. The next step does not grow in this case.
+    /// Last attempt, if it was rejected. After a rejection the next step does not grow.
     pub rejected: Option<Rejection>,
 }
 
@@ -53,15 +53,15 @@ pub struct StepHistory {
 pub struct Rejection {
     /// Step length, s.
     pub step: f64,
-    /// Natural logarithm of its error; ∞ if the error was not finite.
+    /// Natural logarithm of the error of the attempt; ∞ if the error was not finite.
     pub log_error: f64,
 }
 
 impl StepHistory {
-    /// Smallest error that the control remembers; smaller errors count as this value.
+    /// Smallest error in the history; smaller errors count as this value.
     // Hairer's value.
     pub const FLOOR: f64 = 1e-4;
-    /// Empty memory, equal to that after a step with the error [`StepHistory::FLOOR`].
+    /// Empty history, equal to the history after a step with the error [`StepHistory::FLOOR`].
     pub const BLANK: Self = Self { log_error: -9.210_340_371_976_182, rejected: None };
 }
 
@@ -70,7 +70,7 @@ impl StepHistory {
 pub struct Verdict {
     /// Whether the step met the tolerance.
     pub accepted: bool,
-    /// Length of the next attempt, s, with the sign of this one.
+    /// Length of the next attempt, s, with the sign of the present length.
     pub next: f64,
 }
 
@@ -84,8 +84,8 @@ impl StepControl {
         Self { limits, alpha: 1.0 / order - 0.75 * beta, beta, history: StepHistory::BLANK }
     }
 
-    /// Accepts or rejects an attempt of length `h` (s) with this `error`, and proposes the next length. Accepts errors up to 1;
-    /// rejects larger ones and NaN.
+    /// Accepts or rejects an attempt of length `h` (s) with this `error`, and proposes the next length. Errors up to 1 are accepted; larger
+    /// errors and NaN are rejected.
     #[inline]
     pub fn propose(&mut self, error: f64, h: f64) -> Verdict {
         let StepLimits { safety, shrink, grow, .. } = self.limits;
@@ -110,28 +110,28 @@ impl StepControl {
         Verdict { accepted: true, next: self.limit(h * factor.max(shrink).min(ceiling)) }
     }
 
-    /// Returns the step length after a step that an event or a corner cut short, and clears the history.
+    /// Returns the next step length after an event or a corner has cut a step, and clears the history.
     ///
-    /// `wished` is the last proposal of [`propose`](Self::propose) before the cut. It is returned, limited to the largest step.
-    /// Do not call `propose` for the cut step: its small error does not predict the next one.
+    /// `wished` is the last proposal of [`propose`](Self::propose) before the cut. The result is `wished`, limited to the maximum step.
+    /// Do not call `propose` for the cut step: the small error of a cut step does not predict the next error.
     pub fn after_event(&mut self, wished: f64) -> f64 {
         self.history = StepHistory::BLANK;
         self.limit(wished)
     }
 
-    /// Returns the memory, to be saved with the state of a run.
+    /// Returns the history, to be saved with the state of a run.
     #[must_use]
     pub fn history(&self) -> StepHistory {
         self.history
     }
 
-    /// Restores a saved memory.
+    /// Restores a history saved with the state of a run.
     pub fn set_history(&mut self, history: StepHistory) {
         self.history = history;
     }
 
-    /// Returns the exponent of the error by which a rejected step is shortened. Two rejections in a row show the actual order of
-    /// the error, which is lower than the method's where the right-hand side is not smooth.
+    /// Returns the exponent of the error by which a rejected step is shortened. Two rejections in a row show the actual order of the error,
+    /// which is lower than the order of the method if the right-hand side is not smooth.
     fn decay(&self, now: Rejection) -> f64 {
         // Observed orders above the method's are accidental and do not count.
         let power = |before: Rejection| (before.log_error - now.log_error) / math::ln(before.step / now.step);

@@ -24,10 +24,10 @@ impl Cubic {
         [m0, 3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise]
     }
 
-    /// Returns an approximate zero as a fraction of the step, for `y0` > 0 and `y1` < 0. Falls back to the zero of the chord
-    /// where Newton's method leaves the step.
+    /// Returns an approximate zero as a fraction of the step, for `y0` > 0 and `y1` < 0. If Newton's method leaves the step, the result is
+    /// the zero of the chord.
     ///
-    /// It is a starting point for [`root_near`](crate::root_near): two Newton steps from the zero of the chord.
+    /// The result is a starting point for [`root_near`](crate::root_near): two Newton steps from the zero of the chord.
     #[must_use]
     pub fn root(&self) -> f64 {
         let Self { y0, y1, .. } = *self;
@@ -42,8 +42,8 @@ impl Cubic {
         if x > 0.0 && x < 1.0 { x } else { chord }
     }
 
-    /// Returns true if the cubic certainly stays above `level` in the whole step. The test uses the Bézier control points, whose
-    /// convex hull contains the curve. False is no statement.
+    /// Returns true if the cubic certainly stays above `level` in the whole step. The test uses the Bézier control points, whose convex
+    /// hull contains the curve. If the result is false, the cubic may still stay above.
     #[must_use]
     pub fn stays_above(&self, level: f64) -> bool {
         let third = self.h / 3.0;
@@ -51,9 +51,9 @@ impl Cubic {
         points.into_iter().all(|y| y > level)
     }
 
-    /// Returns the minimum inside the step: x is its fraction θ of the step (0 < θ < 1), y its value. None if there is none.
+    /// Returns the minimum inside the step: x is its position as a fraction θ of the step (0 < θ < 1), y its value. None without a minimum.
     ///
-    /// It detects an event function that becomes negative and positive again within a step.
+    /// The minimum detects an event function that becomes negative and positive again within a step.
     #[must_use]
     pub fn dip(&self) -> Option<Point> {
         let y0 = self.y0;

@@ -24,22 +24,22 @@ pub const ORDER: u32 = 8;
 
 /// DOP853 as a one-step method whose steps the caller accepts.
 ///
-/// Stage i is evaluated at y + h Σ a_ij k_j and t + c_i h; the step ends at y + h Σ b_i k_i. In a graded step ([`Grade`]) the
-/// same formulas hold for the derivatives by σ.
+/// Stage i is evaluated at y + h Σ a_ij k_j and t + c_i h; the step ends at y + h Σ b_i k_i. In a graded step ([`Grade`]) the same formulas
+/// hold for derivatives with respect to σ.
 ///
-/// A step costs 11 evaluations, and one for the slopes at its end, which the next step reuses. The dense output costs three more,
-/// on request only. Nothing is allocated after construction.
+/// A step costs 11 evaluations, and one for the slopes at its end, which the next step reuses. The dense output, computed on request only,
+/// costs three more. After construction the method allocates no memory.
 #[derive(Debug, Clone)]
 pub struct DormandPrince {
-    /// Number of coupled components; quadratures follow them.
+    /// Number of coupled components; quadratures come after these components.
     dimension: usize,
     /// Number of all components.
     total: usize,
     extent: Extent,
-    /// States at both ends. All lists of components are padded with a zero to an even length.
+    /// States at both ends of the step. All lists of components are padded with a zero to an even length.
     begin: Vec<f64>,
     end: Vec<f64>,
-    /// Coupled components of the current stage, and all slopes there.
+    /// Coupled components of the current stage (`stage`), and all slopes there (`newest`).
     stage: Vec<f64>,
     newest: Vec<f64>,
     ends: EndSlopes,
@@ -50,7 +50,7 @@ pub struct DormandPrince {
     /// Dense output by component.
     polynomials: Vec<dense::Polynomial>,
     dense_known: bool,
-    /// Stepper for moments inside the step; created on first use.
+    /// Stepper for times inside the step; created on first use.
     visitor: Option<Box<Self>>,
     evaluations: u64,
 }
@@ -60,16 +60,16 @@ pub struct DormandPrince {
 struct Extent {
     /// Start, s.
     time: f64,
-    /// End, s; the cut of a step that was cut.
+    /// End of the step, s; for a cut step the time of the cut.
     end_time: f64,
-    /// End of the step attempted, s. The dense output ends there, even if the step was cut.
+    /// End of the attempted step, s. The dense output ends there, even if the step was cut.
     target: f64,
-    /// Length of the step attempted, s.
+    /// Length of the attempted step, s.
     step: f64,
     grade: Grade,
 }
 
-/// Slopes of all components at both ends of a step, by time. Those of the stages are derivatives by σ.
+/// Time derivatives of all components at both ends of a step. Slopes of stages, in contrast, are derivatives with respect to σ.
 #[derive(Debug, Clone)]
 struct EndSlopes {
     first: Vec<f64>,
@@ -114,7 +114,7 @@ impl DormandPrince {
         self.ends.first_known = true;
     }
 
-    /// Evaluates the slopes at the end of the step, unless they are known.
+    /// Evaluates the slopes at the end of the step, unless already known.
     fn end_slopes<S: System + ?Sized>(&mut self, system: &S) {
         if !self.ends.last_known {
             let last = &mut self.ends.last[..self.total];
@@ -131,14 +131,14 @@ impl DormandPrince {
 }
 
 impl Method for DormandPrince {
-    /// Returns 5.0. The stability region ends at 6.0 on the imaginary axis and at -6.4 on the real axis. Near its boundary the
-    /// dense output of an oscillation, where events cut steps, is inaccurate.
+    /// Returns 5.0. The stability region ends at 6.0 on the imaginary axis and at -6.4 on the real axis. Near the boundary of this region,
+    /// the dense output of an oscillation, where events cut steps, is inaccurate.
     fn stability_limit(&self) -> f64 {
         // At |hλ| = 5 an oscillation has 0.83 of its amplitude at the end of a step; at 6 it grows.
         5.0
     }
 
-    /// The answer of [`System::coasts`] at the last evaluation of the start slopes.
+    /// Returns the value of [`System::coasts`] at the last evaluation of the slopes at the start.
     fn coasts(&self) -> bool {
         self.coasts
     }
@@ -155,7 +155,7 @@ impl Step for DormandPrince {
         Span { time: self.extent.time, end_time: self.extent.end_time, begin, end }
     }
 
-    /// Works for any component. Returns NaN if the slope is unknown.
+    /// Accepts the index of any component. Returns NaN if the slope is unknown.
     fn slope(&self, i: usize, at: End) -> f64 {
         let (slopes, known) = match at {
             End::Start => (&self.ends.first, self.ends.first_known),
@@ -164,7 +164,7 @@ impl Step for DormandPrince {
         slopes[..self.total].get(i).filter(|_| known).map_or(f64::NAN, |slope| *slope)
     }
 
-    /// Returns NaN without dense output.
+    /// Returns NaN if the dense output is unknown.
     #[inline]
     fn value_at(&self, i: usize, part: f64) -> f64 {
         self.polynomial(i).map_or(f64::NAN, |c| dense::value(c, part))
@@ -180,7 +180,7 @@ impl Step for DormandPrince {
         [time + step * grade.time(part), step * grade.pace(part)]
     }
 
-    /// Does nothing without dense output.
+    /// Does nothing if the dense output is unknown.
     fn cut(&mut self, t: f64) {
         if !self.dense_known {
             return;
@@ -193,7 +193,7 @@ impl Step for DormandPrince {
         self.ends.last_known = false;
     }
 
-    /// Slopes known at the end become the first slopes of the next step.
+    /// Slopes known at the end become the slopes at the start of the next step.
     fn accept(&mut self) {
         // Swapped instead of copied: the next attempt overwrites the old start.
         std::mem::swap(&mut self.begin, &mut self.end);
@@ -222,7 +222,7 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
         self.restart_slopes(system);
     }
 
-    /// Starts anew if `slopes` has another length than there are components.
+    /// Starts anew if the length of `slopes` differs from the number of components.
     fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), _: Hand, slopes: &[f64]) {
         if slopes.len() != self.total {
             return self.start(system, t, y);
@@ -234,13 +234,13 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
         (self.ends.first_known, self.coasts) = (true, system.coasts());
     }
 
-    /// Uses the rule of Hairer, Nørsett, Wanner, section II.4; one evaluation.
+    /// Uses the rule of Hairer, Nørsett, Wanner, section II.4, which costs one evaluation.
     fn first_step(&mut self, system: &S, longest: f64, scale: &[f64]) -> f64 {
         self.starting_step(system, longest, scale)
     }
 
-    /// `scale` is the absolute tolerance of each coupled component, above 0. The error is h e₅² / √(e₅² + 0.01 e₃²). e₅ and e₃
-    /// are the largest components of the two embedded estimates in units of `scale`. The error is of order h⁸.
+    /// `scale` is the absolute tolerance of each coupled component, above 0. The error is h e₅² / √(e₅² + 0.01 e₃²). e₅ and e₃ are the
+    /// largest components of the two embedded estimates in units of `scale`. The error is of order h⁸.
     #[inline]
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
         self.attempt_span(system, to, scale)
@@ -255,7 +255,7 @@ impl<S: System + ?Sized> Attempt<S> for DormandPrince {
         self.settle_cut(system, scale, components);
     }
 
-    /// End slopes cost one evaluation, the dense output three more.
+    /// Slopes at the end cost one evaluation, the dense output three more.
     fn complete(&mut self, system: &S, what: Completion) {
         match what {
             Completion::EndSlopes => self.end_slopes(system),

@@ -4,10 +4,10 @@
 pub trait FixedStep {
     /// Returns a workspace for systems with `positions` positions, `dimension` coupled components and `total` components.
     fn sized(positions: usize, dimension: usize, total: usize) -> Self;
-    /// Drops slopes kept from the last step. Required where they jump: at a corner of a waveform, or after a change of the state
-    /// from outside.
+    /// Drops slopes kept from the last step. Required where slopes jump: at a corner of a waveform, or after a change of the state from
+    /// outside.
     fn restart(&mut self);
-    /// Returns the slopes kept from the last step, which are part of the state of a run. None if the next step needs none.
+    /// Returns the slopes kept from the last step, which are part of the state of a run. None if the next step needs no such slopes.
     fn kept(&self) -> Option<&[f64]> {
         None
     }
@@ -22,12 +22,12 @@ pub trait FixedStep {
 /// A fixed-step method for systems of type `S`. Some methods need a [`System`](crate::System), others a
 /// [`Conservative`](crate::Conservative) system.
 ///
-/// The method evaluates through `&S` only; the owner updates the system's memory after a step.
+/// The method evaluates the system through `&S` only; the owner updates the system's memory after a step.
 pub trait Stepping<S: ?Sized>: FixedStep {
     /// Advances `y` (all components) from `t` to `t + h` (s).
     fn step(&mut self, system: &S, t: f64, y: &mut [f64], h: f64);
 
-    /// Advances `y` from `t` to `t + h` where forces vary with the square root of the time left until `t + h + left`, with `left` ≥ 0 (s).
+    /// Advances `y` from `t` to `t + h` (s), where forces vary with the square root of the time to `t + h + left`, with `left` ≥ 0 (s).
     fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
         let _ = left;
         self.step(system, t, y, h);

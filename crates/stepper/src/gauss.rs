@@ -1,7 +1,7 @@
 //! Gauss's implicit Runge–Kutta method of order 10 for linear equations with many right-hand sides (columns).
 //!
-//! Each step needs the coefficients of the equation at five nodes, once. This suits variational equations along a known motion,
-//! whose coefficients are expensive.
+//! Each step evaluates the coefficients of the equation once at each of five nodes. The method suits variational equations along a known
+//! motion, whose coefficients are expensive.
 
 mod elimination;
 mod rule;
@@ -13,40 +13,40 @@ use std::array;
 /// Number of nodes in a step.
 pub const NODES: usize = 5;
 
-/// One number per node.
+/// Array with one number per node.
 pub type Each = [f64; NODES];
 
 /// Coefficients A and b of a linear equation at one node.
 #[derive(Debug, Clone, Default)]
 pub struct Coefficients {
-    /// Matrix A, row by row: slopes of the `rates` components by all positions and rates.
+    /// Matrix A, row by row: derivatives of the slopes of the `rates` components by all positions and rates.
     pub matrix: Vec<f64>,
     /// Inhomogeneous term b, row by row, one number per column; empty if zero.
     pub forcing: Vec<f64>,
 }
 
-/// Layout of the components in a column: positions, as many velocities, then further components. The velocities are the slopes of
-/// the positions.
+/// Layout of the components in a column: positions, as many velocities, then further components. The velocities are the slopes of the
+/// positions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Components {
     /// Number of positions.
     pub positions: usize,
-    /// Number of components whose slopes the coefficients give: velocities and the components that follow them.
+    /// Number of velocities and further components, whose slopes follow from the coefficients.
     pub rates: usize,
-    /// Length of a column, which may contain further components at its end.
+    /// Length of a column, which may have further entries after these components.
     pub stride: usize,
 }
 
-/// One step of Gauss's method for columns y with ẋ = v and ẇ = A(t)y + b(t). w contains v and the components after it.
+/// One step of Gauss's method for columns y with ẋ = v and ẇ = A(t)y + b(t). w contains v and the components that follow v.
 ///
-/// The slopes r_j of w at the nodes satisfy x_i = x + τ_i v + Σ(a²)_ij r_j and w_i = w + Σ a_ij r_j. They solve one linear system
-/// for all columns.
+/// The slopes r_j of w at the nodes satisfy x_i = x + τ_i v + Σ(a²)_ij r_j and w_i = w + Σ a_ij r_j. One linear system gives the slopes for
+/// all columns.
 ///
 /// Source: Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed., section II.1.3.
 #[derive(Debug, Clone, Default)]
 pub struct Gauss {
     reach: Reach,
-    /// Linear system, with the right-hand sides at the end of each row.
+    /// Linear system for the slopes, with the right-hand sides at the end of each row.
     system: Vec<f64>,
     /// Slopes at the nodes, row by row.
     right: Vec<f64>,
@@ -60,17 +60,17 @@ impl Gauss {
         PLACES.map(|x| 0.5 * (1.0 + x))
     }
 
-    /// Returns the time to each node and to the end of a step (s), as the method computes them. `paces` are dt/ds at the nodes
-    /// (s), with s the fraction of the step.
+    /// Returns the times from the start of a step to each node and to its end (s), with the rounding of the method. `paces` are dt/ds at
+    /// the nodes (s), with s the fraction of the step.
     #[must_use]
     pub fn times(paces: Each) -> (Each, f64) {
         let add = |weights: &Each| weights.iter().zip(&paces).map(|(weight, pace)| weight * pace).sum();
         (RULE.inner.each_ref().map(add), add(&SHARES))
     }
 
-    /// Attempts a step with dt/ds = `paces` at the [`NODES`] nodes (s); an even step has its length for all of them.
+    /// Attempts a step with dt/ds = `paces` at the [`NODES`] nodes (s). In an even step all paces equal the step length.
     ///
-    /// Returns the last Legendre coefficients of the slopes in units of `scale`; infinite if the linear system is singular.
+    /// Returns the last Legendre coefficients of the slopes in units of `scale`, or infinity if the linear system is singular.
     pub fn attempt(
         &mut self,
         (paces, nodes): (Each, &[Coefficients]),
@@ -96,14 +96,14 @@ impl Gauss {
         tail
     }
 
-    /// Returns the columns at the end of the step attempted.
+    /// Returns the columns at the end of the attempted step.
     #[must_use]
     pub fn end(&self) -> &[f64] {
         &self.end
     }
 
-    /// Writes the columns at fraction `part` of the step into `to`, with positions by the method's polynomial of order 5. All
-    /// other components keep their values at the start.
+    /// Writes the columns at fraction `part` of the step into `to`. Positions follow the method's polynomial of order 5; all other
+    /// components keep their values at the start.
     pub fn positions(&self, part: f64, of: Components, columns: &[f64], to: &mut Vec<f64>) {
         let Components { positions, rates, stride } = of;
         let count = columns.len().checked_div(stride).unwrap_or(0);
@@ -124,8 +124,8 @@ impl Gauss {
         }
     }
 
-    /// Adds to `sums` the integrals of linear forms over the step attempted; no component depends on them. `slopes` has the forms
-    /// at the nodes, `columns` the start of the step. `sums` has one row per form and one number per column.
+    /// Adds to `sums` the integrals of linear forms over the attempted step; no component depends on these integrals. `slopes` has the
+    /// forms at the nodes, `columns` the start of the step. `sums` has one row per form and one number per column.
     pub fn integrate(&self, slopes: &[Coefficients], of: Components, columns: &[f64], sums: &mut [f64]) {
         let Components { positions, rates, stride } = of;
         let (count, wide) = (columns.len().checked_div(stride).unwrap_or(0), positions + rates);
@@ -185,7 +185,7 @@ impl Gauss {
         }
     }
 
-    /// Computes the columns at the end from the slopes at the nodes.
+    /// Computes the columns at the end of the step from the slopes at the nodes.
     fn finish(&mut self, of: Components, columns: &[f64]) {
         let Components { positions, rates, stride } = of;
         let count = columns.len().checked_div(stride).unwrap_or(0);
@@ -208,16 +208,16 @@ impl Gauss {
 /// Last Legendre coefficients of the slopes over a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tail {
-    /// Last coefficient that the nodes give.
+    /// Last Legendre coefficient that the nodes determine.
     pub last: f64,
-    /// Estimate of the tenth coefficient, which the method misses. It is extrapolated by a constant ratio, as valid for functions
-    /// with a nearby singularity.
+    /// Estimate of the tenth Legendre coefficient, which the nodes do not determine. The estimate extrapolates with a constant ratio, which
+    /// is valid for functions with a nearby singularity.
     pub rest: f64,
 }
 
 impl Tail {
-    /// Returns the tail of four coefficients. Two successive coefficients are compared with the two before them, as even or odd
-    /// functions have alternate zeros. The cube of this ratio leads to the tenth.
+    /// Estimates the tail from four coefficients. The last two are compared with the two before, because for symmetric functions every
+    /// second coefficient is zero. The cube of this ratio extrapolates to the tenth coefficient.
     fn of([first, second, third, fourth]: [f64; 4]) -> Self {
         let (before, after) = (first.max(second), third.max(fourth));
         let falls = if after < before { after / before } else { 1.0 };

@@ -1,18 +1,18 @@
-//! Time integrators for systems with memory.
+//! Time integrators for systems with memory, such as the slip memory of frictional contacts.
 //!
-//! A stepper attempts a step; the caller decides whether to accept it. Every stepper evaluates a [`System`] through a shared
-//! reference, so a rejected step leaves no trace. The owner of the system updates its memory after an accepted step, and restarts
-//! the stepper after a discontinuity.
+//! A stepper attempts a step; the caller decides whether to accept it. Every stepper evaluates a [`System`] through a shared reference, so
+//! a rejected step does not change the system. The owner of the system updates its memory after an accepted step, and restarts the stepper
+//! after a discontinuity.
 //!
 //! Contents:
 //!
 //! * [`System`]: system of ordinary differential equations with quadratures.
-//! * [`Attempt`]: adaptive one-step method; [`Method`] and [`Step`] are its parts that do not depend on the system.
+//! * [`Attempt`]: adaptive one-step method. Its supertraits [`Method`] and [`Step`] do not depend on the system.
 //! * [`DormandPrince`]: DOP853, order 8(5,3) with dense output.
 //! * [`Nystrom`]: Runge–Kutta–Nyström, order 8(6), for [`Conservative`] systems, whose forces do not depend on velocities.
-//! * [`Paired`]: both, for conservative systems with singular moments.
+//! * [`Paired`]: [`Nystrom`] with [`DormandPrince`] for conservative systems with singular moments.
 //! * [`Radau`]: implicit, order 9, for stiff systems.
-//! * [`Gauss`]: order 10, for linear equations along a known motion.
+//! * [`Gauss`]: Gauss's method of order 10, for linear equations along a known motion.
 //! * [`StepControl`]: step-size control.
 //! * [`root()`], [`narrow`], [`Cubic`]: zero crossings of event functions within a step.
 //! * [`FixedStep`], [`Rk4`], [`Verlet`]: methods with a fixed step.

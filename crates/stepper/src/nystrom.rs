@@ -4,8 +4,8 @@
 //! [`DormandPrince`](crate::DormandPrince).
 //!
 //! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*, IMA Journal of Numerical
-//! Analysis 7 (1987) 423–430. The dense output is a Hermite–Birkhoff interpolant of accelerations at seven nodes; the inner ones are
-//! evaluated again at interpolated positions. [Steps with few stages](crate::Grade::Few) use Nyström's method of order 5.
+//! Analysis 7 (1987) 423–430. The dense output is a Hermite–Birkhoff interpolant of accelerations at seven nodes. At the inner nodes,
+//! accelerations are evaluated again at interpolated positions. [Steps with few stages](crate::Grade::Few) use Nyström's method of order 5.
 
 mod dense;
 mod estimate;
@@ -21,36 +21,36 @@ pub use track::Track;
 use crate::{Attempt, Completion, End, Grade, Hand, Method, Span, Step, Target};
 use tableau::END;
 
-/// Order of the error estimate: it is proportional to this power of the step.
+/// Order of the error estimate: the estimate is proportional to this power of the step length.
 pub const ORDER: u32 = 7;
 
 /// A system whose accelerations and quadrature rates depend on time and positions only.
 ///
-/// Its state has n positions, n velocities and the quadratures, in this order.
+/// The state has n positions, n velocities and the quadratures, in this order.
 pub trait Conservative {
     /// Writes the n accelerations and then the rates of the quadratures at time `t` (s) and positions `x` into `out`. All of
     /// `out` must be filled.
     fn accelerations(&self, t: f64, x: &[f64], out: &mut [f64]);
 
-    /// Whether accelerations and rates are constant during the next step. Then the step needs no evaluation.
+    /// Whether accelerations and rates are constant during the next step, so that the step needs no evaluation.
     fn coasts(&self) -> bool {
         false
     }
 }
 
-/// RKN8(6)9 as a one-step method whose steps the caller accepts.
+/// Runge–Kutta–Nyström method RKN8(6)9 as a one-step method whose steps the caller accepts.
 ///
 /// ```text
 /// x₁ = x + h v + h² Σ b_j k_j     v₁ = v + h Σ b'_j k_j     q₁ = q + h Σ b'_j r_j
 /// ```
 ///
-/// k_j are the accelerations and r_j the quadrature rates at stage j, whose position is x + c_j h v + h² Σ a_ji k_i. Nothing is
-/// allocated after construction.
+/// k_j are the accelerations and r_j the quadrature rates at stage j, whose position is x + c_j h v + h² Σ a_ji k_i. After construction the
+/// method allocates no memory.
 #[derive(Debug, Clone)]
 pub struct Nystrom<N: Storage = Many> {
     /// Start of the step, s.
     time: f64,
-    /// End of the step, s; the cut of a step that was cut.
+    /// End of the step, s; for a cut step the time of the cut.
     end_time: f64,
     /// Length of the step attempted, s.
     step: f64,
@@ -63,7 +63,7 @@ pub struct Nystrom<N: Storage = Many> {
     stage: N::Positions,
     /// Accelerations and quadrature rates at the current stage.
     rates: N::Rates,
-    /// One track for each position and each quadrature.
+    /// Stage data for each position and each quadrature.
     tracks: N::Tracks,
     /// Whether the system reported constant accelerations at the start of the step.
     constant: bool,
@@ -117,7 +117,7 @@ impl<N: Storage> Nystrom<N> {
         }
     }
 
-    /// Number of positions; a constant for storage of fixed size.
+    /// Returns the number of positions, a compile-time constant for storage of fixed size.
     #[inline(always)]
     fn positions(&self) -> usize {
         self.stage.as_ref().len()
@@ -151,7 +151,7 @@ impl<N: Storage> Nystrom<N> {
         self.known.first = true;
     }
 
-    /// Evaluates the accelerations at the end of a step that was cut. For other steps the last stage has them.
+    /// Evaluates the accelerations at the end of a step that was cut. In other steps the last stage contains them.
     fn end_slopes<S: Conservative + ?Sized>(&mut self, system: &S) {
         if !self.known.last {
             let n = self.positions();
@@ -163,7 +163,7 @@ impl<N: Storage> Nystrom<N> {
 }
 
 impl<N: Storage> Method for Nystrom<N> {
-    /// Returns 3.0. Oscillations grow from |hλ| = 3.3 on.
+    /// Returns 3.0. Numerical solutions of oscillations grow from |hλ| = 3.3 on.
     fn stability_limit(&self) -> f64 {
         // The matrix of a step has a spectral radius of 0.9999 between 2.5 and 3.2, and of 1.0002 at 3.4.
         3.0
@@ -244,7 +244,7 @@ impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
         self.restart_slopes(system);
     }
 
-    /// Starts anew if `slopes` has another length than the number of positions and quadratures.
+    /// Starts anew if the length of `slopes` differs from the number of positions and quadratures.
     fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), _: Hand, slopes: &[f64]) {
         if slopes.len() != self.tracks.as_ref().len() {
             return self.start(system, t, y);
@@ -270,7 +270,7 @@ impl<S: Conservative + ?Sized, N: Storage> Attempt<S> for Nystrom<N> {
         if self.few { self.error_of_fifth(scale) } else { self.error(scale) }
     }
 
-    /// End slopes are known unless the step was cut. The dense output evaluates the inner nodes again.
+    /// The slopes at the end are known unless the step was cut. The dense output evaluates the inner nodes again.
     fn complete(&mut self, system: &S, what: Completion) {
         match what {
             Completion::EndSlopes => self.end_slopes(system),

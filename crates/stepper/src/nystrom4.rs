@@ -2,15 +2,15 @@
 
 use crate::{Conservative, FixedStep, Stepping};
 
-/// Nyström's method of order 4 (Nyström 1925; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.14.2). It needs three
-/// evaluations per step, where [`Rk4`](crate::Rk4) needs four, and has no error estimate.
+/// Nyström's method of order 4 (Nyström 1925; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.14.2). The method needs three evaluations
+/// per step, where [`Rk4`](crate::Rk4) needs four, and has no error estimate.
 ///
 /// ```text
 /// k₁ = a(t, x)   k₂ = a(t + h/2, x + h/2 v + h²/8 k₁)   k₃ = a(t + h, x + h v + h²/2 k₂)
 /// x₁ = x + h v + h²/6 (k₁ + 2k₂)   v₁ = v + h/6 (k₁ + 4k₂ + k₃)   q₁ = q + h/6 (r₁ + 4r₂ + r₃)
 /// ```
 ///
-/// r are the rates of the quadratures q.
+/// Here r are the rates of the quadratures q.
 #[derive(Debug, Clone)]
 pub struct Nystrom4 {
     positions: usize,
@@ -29,7 +29,7 @@ impl Nystrom4 {
         Self { positions, stage: vec![0.0; positions], rates: [rates(), rates(), rates()], evaluations: 0 }
     }
 
-    /// Steps a system with one position and one quadrature without loops.
+    /// Integrates one step of a system with one position and one quadrature, without loops.
     #[inline(always)]
     fn step_one<S: Conservative + ?Sized>(&self, system: &S, t: f64, y: &mut [f64; 3], h: f64) {
         let [x, v, q] = *y;
@@ -75,12 +75,12 @@ impl Nystrom4 {
 }
 
 impl FixedStep for Nystrom4 {
-    /// All components are positions, velocities or quadratures.
+    /// The components must be positions, velocities and quadratures only.
     fn sized(positions: usize, _: usize, total: usize) -> Self {
         Self::new(positions, total - 2 * positions)
     }
 
-    /// Does nothing: the method keeps no slopes.
+    /// Does nothing, because the method keeps no slopes.
     fn restart(&mut self) {}
 
     fn evaluations(&self) -> u64 {

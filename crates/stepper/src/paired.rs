@@ -1,25 +1,25 @@
-//! Nyström's method, with DOP853 for steps that begin or end at a singular moment.
+//! Nyström's method, combined with DOP853 for steps that begin or end at a singular moment.
 //!
-//! In a graded step the acceleration by σ contains a velocity term. A Nyström method would lose its order there, so the few
-//! graded steps use [`DormandPrince`].
+//! In a graded step the acceleration with respect to σ contains a velocity term. A Nyström method would lose its order, so the few graded
+//! steps use [`DormandPrince`].
 //!
-//! Both methods carry the same motion: the method of an attempt first takes over the state of the other one.
+//! Both methods integrate the same motion: before an attempt, a method takes over the state of the other one.
 
 use crate::{
     Attempt, Completion, Conservative, DormandPrince, End, Hand, Many, Method, Nystrom, One, Span, Step,
     Storage, System, Target,
 };
 
-/// [`Nystrom`] for even steps and [`DormandPrince`] for graded steps of the same motion.
+/// Pair of methods for one motion: [`Nystrom`] for even steps and [`DormandPrince`] for graded steps.
 #[derive(Debug, Clone)]
 pub struct Paired<N: Storage = Many> {
     /// Method for even steps.
     even: Nystrom<N>,
     /// Method for graded steps.
     graded: DormandPrince,
-    /// Method of the last attempt, which has the current state.
+    /// Method of the last attempt, which contains the current state.
     last: By,
-    /// Whether the other method has the current state, too.
+    /// Whether the other method contains the current state, too.
     both: bool,
 }
 
@@ -30,7 +30,7 @@ enum By {
 }
 
 impl Paired {
-    /// Returns a workspace for `positions` positions and `quadratures` quadratures; `total` is that of [`System::total`].
+    /// Returns a workspace for `positions` positions and `quadratures` quadratures; `total` is [`System::total`].
     #[must_use]
     pub fn new(positions: usize, quadratures: usize, total: usize) -> Self {
         Self::of(Nystrom::new(positions, quadratures), DormandPrince::new(2 * positions, total))
@@ -38,7 +38,7 @@ impl Paired {
 }
 
 impl Paired<One> {
-    /// Returns a workspace for one position and one quadrature; `total` is that of [`System::total`].
+    /// Returns a workspace for one position and one quadrature; `total` is [`System::total`].
     #[must_use]
     pub fn one(total: usize) -> Self {
         Self::of(Nystrom::one(), DormandPrince::new(2, total))
@@ -46,12 +46,12 @@ impl Paired<One> {
 }
 
 impl<N: Storage> Paired<N> {
-    /// Returns the pair before its start.
+    /// Returns the pair of methods without a starting point.
     fn of(even: Nystrom<N>, graded: DormandPrince) -> Self {
         Self { even, graded, last: By::Even, both: false }
     }
 
-    /// Makes a method the current one, at the current state.
+    /// Selects a method for the next attempt and gives it the current state.
     fn take<S: System + Conservative + ?Sized>(&mut self, system: &S, by: By) {
         // Costs one evaluation at a change of method, and none if the other method is at the same start, as after a rejection.
         if self.last != by && !self.both {
@@ -70,7 +70,7 @@ impl<N: Storage> Paired<N> {
         self.last = by;
     }
 
-    /// Separate from even attempts, which are inlined into the loop of a run.
+    /// Attempts a graded step. Separate from `attempt`, because even attempts are inlined into the loop of a run.
     fn attempt_graded<S: System + Conservative + ?Sized>(
         &mut self,
         system: &S,
@@ -159,7 +159,7 @@ impl<S: System + Conservative + ?Sized, N: Storage> Attempt<S> for Paired<N> {
         (self.last, self.both) = (By::Even, false);
     }
 
-    /// The slopes are those of the method of the last attempt. The other method is started at the same state if it was there.
+    /// `slopes` belong to the method of the last attempt. The other method starts at the same state if [`Hand::both`] is set.
     fn take_up(&mut self, system: &S, at: (f64, &[f64]), hand: Hand, slopes: &[f64]) {
         let (t, y) = at;
         match (hand.graded, hand.both) {

@@ -1,7 +1,7 @@
 //! The implicit Runge–Kutta method Radau IIA of order 9 for stiff systems, with error estimate and dense output of order 5.
 //!
-//! An explicit method needs steps as short as the fastest decay. Radau IIA is L-stable: a component that decays within a step has
-//! decayed at its end, for any step length.
+//! An explicit method needs steps as short as the fastest decay. Radau IIA is L-stable: a component that decays within a step is close to
+//! zero at the end of the step, for any step length.
 //!
 //! Source: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer 1996, sections IV.5 and IV.8.
 
@@ -24,14 +24,14 @@ pub const ORDER: u32 = 6;
 
 /// Five-stage Radau IIA as a one-step method whose steps the caller accepts.
 ///
-/// Stage i is at y + h Σ aᵢⱼ kⱼ with the slopes kⱼ of all stages; the last stage is the end. The Jacobian costs one evaluation
-/// per coupled component and one more. Each of two or three Newton corrections costs five. End slopes and dense output cost none.
-/// All steps are even. Nothing is allocated after construction.
+/// Stage i is at y + h Σ aᵢⱼ kⱼ with the slopes kⱼ of all stages; the last stage is the end of the step. The Jacobian costs one evaluation
+/// per coupled component and one more. Each of two or three Newton corrections costs five. Slopes at the end and dense output cost none.
+/// All steps have evenly distributed stages. After construction the method allocates no memory.
 #[derive(Debug, Clone)]
 pub struct Radau {
-    /// Number of coupled components; quadratures follow them.
+    /// Number of coupled components; quadratures come after these components.
     dimension: usize,
-    /// Number of positions among them.
+    /// Number of positions among the coupled components.
     positions: usize,
     extent: Extent,
     /// States at both ends.
@@ -43,22 +43,22 @@ pub struct Radau {
     first_known: bool,
     last_known: bool,
     coasts: bool,
-    /// Slopes of the stages and states of the stages minus the start, by component.
+    /// Slopes of the stages (`k`) and states of the stages minus the start (`z`), by component.
     k: Vec<Stages>,
     z: Vec<Stages>,
     jacobian: Jacobian,
-    /// Factored matrices of the Newton corrections and of the error estimate.
+    /// Factored matrices of the Newton corrections (`matrix`) and of the error estimate (`filter`).
     matrix: Elimination,
     filter: Elimination,
-    /// Residuals of the stage slopes, then their corrections; and the resulting shifts of the stages.
+    /// Residuals of the stage slopes, later their corrections (`missed`); resulting shifts of the stages (`shift`).
     missed: Vec<f64>,
     shift: Vec<Stages>,
-    /// Coupled components of the current stage, and all slopes there.
+    /// Coupled components of the current stage (`stage`), and all slopes there (`newest`).
     stage: Vec<f64>,
     newest: Vec<f64>,
     polynomials: Vec<dense::Polynomial>,
     dense_known: bool,
-    /// Stepper for moments inside the step; created on first use.
+    /// Stepper for times inside the step; created on first use.
     visitor: Option<Box<Self>>,
     evaluations: u64,
 }
@@ -68,11 +68,11 @@ pub struct Radau {
 struct Extent {
     /// Start, s.
     time: f64,
-    /// End, s; the cut of a step that was cut.
+    /// End of the step, s; for a cut step the time of the cut.
     end_time: f64,
-    /// End of the step attempted, s.
+    /// End of the attempted step, s.
     target: f64,
-    /// Length of the step attempted, s.
+    /// Length of the attempted step, s.
     step: f64,
 }
 
@@ -80,8 +80,8 @@ impl Radau {
     /// Returns a workspace for systems with `total` components, of which `dimension` are coupled and `positions` are positions
     /// ([`System::positions`]).
     ///
-    /// Derivatives are finite differences over `differences` of the coupled components, in their units. They should be small
-    /// compared with the scale on which slopes bend, and well above rounding. A `total` below `dimension` counts as `dimension`.
+    /// Derivatives are finite differences with the increments `differences` of the coupled components, in their units. Increments should be
+    /// small on the scale where slopes are nonlinear, and well above rounding. A `total` below `dimension` counts as `dimension`.
     #[must_use]
     pub fn new((dimension, positions): (usize, usize), total: usize, differences: Vec<f64>) -> Self {
         let total = total.max(dimension);
@@ -132,7 +132,7 @@ impl Radau {
         self.jacobian.take(system, self.extent.time, &self.begin);
     }
 
-    /// Computes a parabola under constant forces and its stages without an evaluation.
+    /// Computes a parabolic step under constant forces, with its stages, without an evaluation.
     fn coast(&mut self) {
         let (h, p) = (self.extent.step, self.positions);
         for (i, slope) in self.first.iter().enumerate() {
@@ -145,12 +145,12 @@ impl Radau {
 }
 
 impl Method for Radau {
-    /// Returns infinity: the method is L-stable.
+    /// Returns infinity, because the method is L-stable.
     fn stability_limit(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// The answer of [`System::coasts`] at the last evaluation of the start slopes.
+    /// Returns the value of [`System::coasts`] at the last evaluation of the slopes at the start.
     fn coasts(&self) -> bool {
         self.coasts
     }
@@ -163,7 +163,7 @@ impl Method for Radau {
         self.evaluations
     }
 
-    /// `both` says whether the Jacobian at the start is known and its evaluations are counted.
+    /// `both` means that the Jacobian at the start is known and its evaluations are counted.
     fn hand(&self) -> Hand {
         Hand { graded: false, both: self.jacobian.known }
     }
@@ -179,8 +179,8 @@ impl Step for Radau {
         Span { time: self.extent.time, end_time: self.extent.end_time, begin: &self.begin, end: &self.end }
     }
 
-    /// Works for any component; NaN if unknown. The slope at the end is that of the method's polynomial. The right-hand side
-    /// would amplify rounding of the state by the fastest decay rate.
+    /// Accepts the index of any component; NaN if the slope is unknown. The slope at the end is that of the method's polynomial, because
+    /// the right-hand side would amplify rounding of the state by the fastest decay rate.
     fn slope(&self, i: usize, at: End) -> f64 {
         let (slopes, known) = match at {
             End::Start => (&self.first, self.first_known),
@@ -189,7 +189,7 @@ impl Step for Radau {
         slopes.get(i).filter(|_| known).map_or(f64::NAN, |slope| *slope)
     }
 
-    /// Returns NaN without dense output.
+    /// Returns NaN if the dense output is unknown.
     #[inline]
     fn value_at(&self, i: usize, part: f64) -> f64 {
         self.polynomial(i).map_or(f64::NAN, |c| self.begin[i] + dense::rise(c, part))
@@ -204,7 +204,7 @@ impl Step for Radau {
         [self.extent.time + part * self.extent.step, self.extent.step]
     }
 
-    /// State and slopes follow from the dense output. Does nothing without dense output.
+    /// The dense output gives the new end state and slopes. Does nothing if the dense output is unknown.
     fn cut(&mut self, t: f64) {
         if !self.dense_known {
             return;
@@ -217,7 +217,7 @@ impl Step for Radau {
         self.extent.end_time = t;
     }
 
-    /// Slopes at the end become the first slopes of the next step.
+    /// Slopes at the end become the slopes at the start of the next step.
     fn accept(&mut self) {
         std::mem::swap(&mut self.begin, &mut self.end);
         self.extent.time = self.extent.end_time;
@@ -245,7 +245,7 @@ impl<S: System + ?Sized> Attempt<S> for Radau {
         self.restart_slopes(system);
     }
 
-    /// Starts anew if `slopes` has another length than there are components.
+    /// Starts anew if the length of `slopes` differs from the number of components.
     fn take_up(&mut self, system: &S, (t, y): (f64, &[f64]), hand: Hand, slopes: &[f64]) {
         if slopes.len() != self.first.len() {
             return self.start(system, t, y);
@@ -265,8 +265,8 @@ impl<S: System + ?Sized> Attempt<S> for Radau {
         self.starting_step(system, longest, scale)
     }
 
-    /// `scale` is the absolute tolerance of each component, above 0. The error is infinite if the Newton iteration fails: the
-    /// step is too long.
+    /// `scale` is the absolute tolerance of each component, above 0. The error is infinite if the Newton iteration fails, which means that
+    /// the step is too long.
     fn attempt(&mut self, system: &S, to: Target, scale: &[f64]) -> f64 {
         if !self.first_known {
             self.restart_slopes(system);
@@ -304,7 +304,7 @@ impl<S: System + ?Sized> Attempt<S> for Radau {
         self.settle_cut(system, scale, 0..self.end.len());
     }
 
-    /// Needs no evaluation.
+    /// Neither the slopes at the end nor the dense output need an evaluation.
     fn complete(&mut self, _: &S, what: Completion) {
         match what {
             Completion::EndSlopes => self.last_known = true,

@@ -1,4 +1,4 @@
-//! Dormand–Prince 5(4) without events, as a reference method. One call integrates one smooth section of a waveform.
+//! Dormand–Prince 5(4) without events, as a reference method. One call integrates between two corners of the waveforms.
 
 use crate::dormand_prince::ORDER;
 use crate::{
@@ -15,9 +15,9 @@ pub trait Accepting: System {
 /// Options of [`integrate`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReferenceOptions {
-    /// First step, s. None means an automatic choice for two evaluations. A continued integration uses [`ReferenceRun::step`].
+    /// First step, s. None selects the length automatically at the cost of two evaluations. To continue, use [`ReferenceRun::step`].
     pub first: Option<f64>,
-    /// Largest step, s, above 0; default unbounded. Set it if long steps could pass over changes of the slopes.
+    /// Maximum step, s, above 0; unbounded by default. Set a value if long steps could pass over changes of the slopes.
     pub longest: f64,
     /// Largest number of attempts, including rejected ones; default a million.
     pub steps: u32,
@@ -40,7 +40,7 @@ pub struct ReferenceRun {
     pub rejected: u64,
     /// Number of evaluations of the slopes.
     pub evaluations: u64,
-    /// Longer one of the last two accepted steps, s: a first step for the next section.
+    /// Longer one of the last two accepted steps, s: a suitable first step for the next call.
     pub step: f64,
 }
 
@@ -79,7 +79,7 @@ pub enum ReferenceError {
         /// First step, s.
         first: Option<f64>,
     },
-    /// More attempts than allowed; also if the slopes are not finite.
+    /// The number of attempts exceeds the limit, possibly because the slopes are not finite.
     #[error("stopped at t = {t} s after {steps} steps")]
     TooManySteps {
         /// Time reached, s.
@@ -87,7 +87,7 @@ pub enum ReferenceError {
         /// Number of attempts.
         steps: u32,
     },
-    /// The step fell below the spacing of floating-point numbers.
+    /// The step length fell below the spacing of floating-point times.
     #[error("the step size became 0 at t = {t} s")]
     StepTooSmall {
         /// Time reached, s.
@@ -95,14 +95,14 @@ pub enum ReferenceError {
     },
 }
 
-/// Integrates `system` over a `span` of time (s) from the state `y`, and reports every accepted step to it.
+/// Integrates `system` over a `span` of time (s) from the state `y`, and reports every accepted step to the system.
 ///
-/// `scale` is the absolute tolerance of each coupled component, above 0; the largest error counts. Quadratures are integrated
-/// without error control. A `system` that refuses a step ends the integration.
+/// `scale` is the absolute tolerance of each coupled component, above 0; the largest error counts. Quadratures are integrated without error
+/// control. The integration ends if `system` refuses a step.
 ///
 /// # Errors
 ///
-/// [`ReferenceError`]: invalid arguments, or an integration that could not be finished. Steps accepted before stay accepted.
+/// [`ReferenceError`]: invalid arguments, or an unfinished integration. Steps accepted before the error stay accepted.
 pub fn integrate<S: Accepting>(
     system: &mut S,
     span: Range<f64>,

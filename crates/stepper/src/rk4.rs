@@ -2,7 +2,7 @@
 
 use crate::{FixedStep, Stepping, System};
 
-/// Classical Runge–Kutta method of order 4 (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2). It needs four
+/// Classical Runge–Kutta method of order 4 (Kutta 1901; Hairer, Nørsett, Wanner, *Solving ODEs I*, table II.1.2). The method needs four
 /// evaluations per step and has no error estimate.
 ///
 /// ```text
@@ -13,12 +13,12 @@ use crate::{FixedStep, Stepping, System};
 pub struct Rk4 {
     /// Number of coupled components.
     dimension: usize,
-    /// Coupled components of the current stage, and all slopes there.
+    /// Coupled components of the current stage (`stage`), and all slopes there (`slope`).
     stage: Vec<f64>,
     slope: Vec<f64>,
     /// Partial sum of k₁ + 2k₂ + 2k₃ + k₄.
     sum: Vec<f64>,
-    /// Nonlinear part of a step before a singular moment.
+    /// Nonlinear part of the change in a step before a singular moment.
     rise: Vec<f64>,
     evaluations: u64,
 }
@@ -47,7 +47,7 @@ impl Rk4 {
         system.slopes(t, &self.stage, &mut self.slope);
     }
 
-    /// Adds the newest slopes to the sum with a weight.
+    /// Adds the newest slopes to the sum of slopes, with a weight.
     #[inline(always)]
     fn add(&mut self, weight: f64) {
         for (sum, k) in self.sum.iter_mut().zip(&self.slope) {
@@ -61,7 +61,7 @@ impl FixedStep for Rk4 {
         Self::new(dimension, total)
     }
 
-    /// Does nothing: the method keeps no slopes.
+    /// Does nothing, because the method keeps no slopes.
     fn restart(&mut self) {}
 
     fn evaluations(&self) -> u64 {
@@ -89,8 +89,8 @@ impl<S: System + ?Sized> Stepping<S> for Rk4 {
         self.evaluations += 4;
     }
 
-    /// Integrates by σ with the time t + aσ(2 - σ), a = h + left, from 0 to s = 1 - √(left/a). In σ the square root of the remaining time
-    /// is linear; the derivatives by σ/s are 2as(1 - σ)f. The linear motion with the first slope is split off, so k₁ = 0 for the rest.
+    /// Integrates over σ with the time t + aσ(2 - σ), a = h + left, from 0 to s = 1 - √(left/a). The square root of the time left is linear
+    /// in σ; derivatives with respect to σ/s are 2as(1 - σ)f. The linear motion with the first slope is split off, so k₁ = 0.
     fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
         let a = h + left;
         let s = 1.0 - (left / a).sqrt();

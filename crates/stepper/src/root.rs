@@ -1,6 +1,6 @@
-//! Zeros within a step by bracketing.
+//! Zeros of a function within a step, found by bracketing.
 
-/// Three times the number of bisections that any bracket of `f64` needs.
+/// Largest number of iterations: three times the number of bisections that any bracket of `f64` needs.
 const MOST: u32 = 3 * 2200;
 
 /// Point (x, y) of a graph.
@@ -12,7 +12,7 @@ pub struct Point {
     pub y: f64,
 }
 
-/// Two points of a graph with values of opposite sign, which bracket a zero.
+/// Two points of a graph with values of opposite sign, between which the function has a zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bracket {
     /// First point.
@@ -21,27 +21,27 @@ pub struct Bracket {
     pub to: Point,
 }
 
-/// Returns a zero of `f` in a bracket. `tolerance` is half the width of the last bracket, in the unit of x, at least the spacing
-/// of floating-point numbers there.
+/// Returns a zero of `f` in a bracket. `tolerance` is half the width of the final bracket, in the unit of x; it is at least the spacing of
+/// floating-point numbers there.
 ///
 /// The result is the middle of the bracket of [`narrow`], or a point where `f` is exactly zero.
 pub fn root(f: impl FnMut(f64) -> f64, bracket: Bracket, tolerance: f64) -> f64 {
     root_near(f, bracket, 0.5, tolerance)
 }
 
-/// Returns a zero of `f` in a bracket, as [`root()`], beginning at `guess`, a fraction of the bracket.
+/// Returns a zero of `f` in a bracket, like [`root()`]. The search begins at `guess`, a fraction of the bracket.
 pub fn root_near(f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance: f64) -> f64 {
     let (left, right) = search(f, bracket, guess, tolerance);
     0.5 * (left + right)
 }
 
-/// Narrows a bracket to (left, right), with right - left at most 2·`tolerance` up to rounding. `f(left)` has the sign of the
-/// first point and `f(right)` that of the second. Both are the same point if `f` is exactly zero there.
+/// Narrows a bracket to (left, right), with right - left at most 2·`tolerance` up to rounding. `f(left)` has the sign of the first point
+/// and `f(right)` the sign of the second. If `f` is exactly zero at a point, both are this point.
 ///
-/// Uses Chandrupatla's method (Adv. Eng. Softw. 28, 145, 1997): inverse quadratic interpolation where its three points allow it,
-/// otherwise bisection. It needs at most three times the evaluations of bisection; smooth functions need five to seven.
+/// Uses Chandrupatla's method (Adv. Eng. Softw. 28, 145, 1997): inverse quadratic interpolation if the last three points allow it,
+/// otherwise bisection. The method needs at most three times the evaluations of bisection; smooth functions need five to seven.
 ///
-/// NaN ends the search at its point. For ends of equal sign the result is the end with the smaller magnitude, twice.
+/// A value that is NaN ends the search at its point. For ends of equal sign both results are the end with the smaller magnitude.
 pub fn narrow(f: impl FnMut(f64) -> f64, bracket: Bracket, tolerance: f64) -> (f64, f64) {
     search(f, bracket, 0.5, tolerance)
 }
@@ -84,8 +84,8 @@ fn search(mut f: impl FnMut(f64) -> f64, bracket: Bracket, guess: f64, tolerance
     if (new.y > 0.0) == (fa > 0.0) { (new.x, old.x) } else { (old.x, new.x) }
 }
 
-/// Returns where the inverse parabola through three points crosses zero, as a fraction from `new` to `old`. Returns the middle
-/// where the parabola is not monotone.
+/// Returns where the inverse parabola through three points crosses zero, as a fraction from `new` to `old`. If the parabola is not
+/// monotone, returns the middle.
 fn inverse_quadratic(new: Point, old: Point, last: Point) -> f64 {
     let xi = (new.x - old.x) / (last.x - old.x);
     let phi = (new.y - old.y) / (last.y - old.y);

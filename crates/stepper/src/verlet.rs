@@ -12,15 +12,15 @@ use crate::{FixedStep, Stepping, System};
 /// v₁ = v₀ + h/2 (a₀ + a₁)           z₁ = z₀ + h/2 (ż₀ + ż₁)
 /// ```
 ///
-/// The next step reuses the slopes at the end, which are evaluated with the predicted velocity. [`restart`](FixedStep::restart)
-/// drops them; required where slopes jump, at a corner of a waveform or after a change from outside.
+/// The next step reuses the slopes at the end, which are evaluated with the predicted velocity. [`restart`](FixedStep::restart) drops these
+/// slopes; required where they jump: at a corner of a waveform, or after a change of the state from outside.
 #[derive(Debug, Clone)]
 pub struct Verlet {
-    /// Number of positions; the components after them are their velocities.
+    /// Number of positions; the next components are the velocities.
     positions: usize,
-    /// Coupled components at the end, with predicted velocities.
+    /// Coupled components at the end of the step, with predicted velocities.
     stage: Vec<f64>,
-    /// Slopes at the start of the step, if `known`, and at its end.
+    /// Slopes at the start of the step (`first`), if `known`, and at its end (`last`).
     first: Vec<f64>,
     last: Vec<f64>,
     known: bool,
@@ -30,7 +30,7 @@ pub struct Verlet {
 impl Verlet {
     /// Returns a workspace for systems with `positions` positions, `dimension` coupled components and `total` components.
     ///
-    /// More positions than half of `dimension` count as that half.
+    /// If there are more positions than half of `dimension`, only that half counts.
     #[must_use]
     pub fn new(positions: usize, dimension: usize, total: usize) -> Self {
         let total = total.max(dimension);
@@ -50,7 +50,7 @@ impl FixedStep for Verlet {
         Self::new(positions, dimension, total)
     }
 
-    /// The next step evaluates its first slopes.
+    /// After a restart, the next step evaluates the slopes at its start.
     fn restart(&mut self) {
         self.known = false;
     }
@@ -59,7 +59,7 @@ impl FixedStep for Verlet {
         self.known.then_some(self.first.as_slice())
     }
 
-    /// Ignores slopes of another length than `total`.
+    /// Ignores slopes whose length is not `total`.
     fn keep(&mut self, slopes: &[f64]) {
         self.known = slopes.len() == self.first.len();
         if self.known {

@@ -1,13 +1,13 @@
 //! Curves of a drive: step length, velocity or power of the steady motion versus one parameter.
 //!
-//! A [`Curve`] has a scenario and a [`Kind`]. Each [`Point`] is a variant of the scenario, given by arguments of `--set`. A point that
-//! cannot be computed contains the reason; the other points are still computed.
+//! A [`Curve`] belongs to a scenario and has a type ([`Kind`]). Each [`Point`] is a variant of the scenario, given by arguments of `--set`.
+//! A point that cannot be computed contains the reason; the other points are still computed.
 //!
 //! Modules in reading order:
 //! * `kind`: types of curves; `variation`: the varied parameter; `range`: the values of the points.
-//! * `motion`: steady motion at a point by shooting; `waiting`: the same by simulation; `point`: results at a point.
-//! * `edge`: bracketing of a zero; `peak`: golden section search for a maximum; `ahead`: both on several cores;
-//!   `landmark`: special points.
+//! * `motion`: steady motion at a point by shooting; `waiting`: steady motion by simulation; `point`: results at a point.
+//! * `edge`: bracketing of the value with zero step length; `peak`: golden section search for a maximum; `ahead`: parallel computation of
+//!   both searches; `landmark`: special points.
 //! * `table`: output files. [`holding`]: holding force of the drive at rest.
 
 mod ahead;
@@ -45,7 +45,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Warning, Watcher};
 use stickslip_scenario::ScenarioError;
 
-/// Relative tolerance of the stall force that sets the default range, and the factor by which the range exceeds it.
+/// Relative tolerance of the stall force for the default range of loads, and ratio of the end of this range to the stall force.
 const ROUGHLY: f64 = 0.05;
 const BEYOND: f64 = 1.1;
 /// Number of bisections to find the last value of a range that gives a valid scenario.
@@ -62,7 +62,7 @@ pub enum Sense {
 
 /// A curve of a scenario.
 pub struct Curve {
-    /// Overrides that reverse the waveforms. They are part of the overrides of each point.
+    /// Overrides that reverse the waveforms in time, as part of the overrides of every point.
     reversal: Vec<(String, String)>,
     /// Direction of the waveforms. `None` if only one direction is computed.
     pub sense: Option<Sense>,
@@ -79,13 +79,13 @@ pub struct Curve {
 /// Points of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Traced {
-    /// Direction of the steps without load, 1 or -1 along x; loads act against it. 1 for curves without loads.
+    /// Direction of the steps without load along x, 1 or -1; loads act in the opposite direction. 1 for curves without loads.
     pub direction: f64,
-    /// False if the motion without load could not be computed. Loads then act along -x.
+    /// False if the motion without load could not be computed; loads then act along -x.
     pub is_known: bool,
-    /// Points in the order of the values.
+    /// Points in the order of their parameter values.
     pub points: Vec<Point>,
-    /// Special points, if they were computed.
+    /// Special points such as the stall force; empty before their computation.
     pub landmarks: Vec<Landmark>,
 }
 
@@ -100,8 +100,8 @@ impl Curve {
         Ok(Self { reversal: Vec::new(), sense: None, kind, variation, job, journal })
     }
 
-    /// Returns the curves for both directions: with the waveforms of the scenario, and with all waveforms of the steps'
-    /// period reversed in time.
+    /// Returns the curves for both directions of the waveforms: as in the scenario, and with all waveforms that have the period of the
+    /// steps reversed in time.
     ///
     /// # Errors
     /// Fails as [`Self::new`] does, or if a waveform cannot be reversed, such as one with a jump.
@@ -140,8 +140,8 @@ impl Curve {
         Bracket::narrow(vec![(from, sense * unloaded.step)], to, ROUGHLY, try_at).ok().flatten()
     }
 
-    /// Returns a load slightly above the largest load that a drive without steps of its own withstands. At this load the drive still has a
-    /// steady motion. The load is at most `most`.
+    /// Returns a load slightly above the largest load that a drive without steps of its own withstands. At the returned load, which is at
+    /// most `most`, the drive still has a steady motion.
     fn held(&self, most: f64, sense: f64, watcher: &dyn Watcher) -> Option<f64> {
         let try_at = |load, _: f64| -> Result<Option<f64>, Infallible> {
             let motion = self.motion_at(load, sense, watcher).ok();
@@ -155,7 +155,7 @@ impl Curve {
         Some(if self.motion_at(beyond, sense, watcher).is_ok() { beyond } else { held.steps })
     }
 
-    /// Returns the given end of a range, or the nearest value that gives a valid scenario. Returns the end itself if there is none.
+    /// Returns an end of a range, or the nearest value that gives a valid scenario. Returns the end unchanged if no value is valid.
     ///
     /// Invalid values are, for example, a frequency that leaves no time for the rise of a waveform, or a load without initial equilibrium.
     fn allowed(&self, end: f64, direction: f64) -> f64 {
@@ -169,7 +169,7 @@ impl Curve {
     }
 
     /// Shortens a range so that the stacks' commands stay within the driver window and the nominal voltage of the data sheet. Commands are
-    /// linear in the varied parameter. Returns the range unchanged if its smaller end already exceeds these limits.
+    /// linear in the varied parameter. Returns the range unchanged if its smaller end already exceeds the window or the nominal voltage.
     fn within_data_sheets(&self, range: [f64; 2]) -> [f64; 2] {
         let is_mirrored = range[0].abs() > range[1].abs();
         let [from, to] = if is_mirrored { [range[1], range[0]] } else { range };
@@ -196,7 +196,7 @@ impl Curve {
 
     /// Computes the points at the given values on `cores` threads. The result does not depend on the number of threads.
     ///
-    /// The watcher receives the number of finished points. If it interrupts, the remaining points are [`Motionless::NotRun`].
+    /// The watcher receives the number of finished points. If the watcher interrupts, the remaining points are [`Motionless::NotRun`].
     pub fn trace(&self, values: &[f64], cores: usize, watcher: &(dyn Watcher + Sync)) -> Traced {
         let unloaded = self.kind.is_of_load().then(|| self.unloaded(watcher));
         let is_known = unloaded.as_ref().is_none_or(Result::is_ok);
@@ -218,7 +218,7 @@ impl Curve {
         self.motion_with(&self.overrides(value, direction), watcher)
     }
 
-    /// Returns the overrides of a point: those of the reversal and of the value. Loads act against `direction`.
+    /// Returns the overrides of a point: reversal of the waveforms and parameter value. Loads act against `direction`.
     fn overrides(&self, value: f64, direction: f64) -> Vec<(String, String)> {
         let varied = self.variation.overrides(value, direction);
         self.reversal.iter().cloned().chain(varied).collect()
@@ -259,7 +259,7 @@ impl Sense {
     }
 }
 
-/// Returns the warnings of `check` for a scenario with overrides. Returns none if the scenario is invalid.
+/// Returns the warnings of `check` for a scenario with overrides, or no warnings if the scenario is invalid.
 fn warnings(job: &Job, set: &[(String, String)]) -> Vec<Warning> {
     job.with(set).map(|job| stickslip_run::warning::of_check(&job)).unwrap_or_default()
 }

@@ -9,8 +9,8 @@ use thiserror::Error;
 pub(crate) enum Figure {
     /// Value of a channel at the end of the run, such as `slider.x_m`.
     End(String),
-    /// Change of a channel over the last whole period of a waveform. For `slider.x_m` it is the step length of a drive.
-    /// NaN without a whole period.
+    /// Change of a channel over the last whole period of a waveform; for `slider.x_m`, the step length of a drive. The change is NaN
+    /// without a whole period.
     Step {
         /// Name of the channel.
         channel: String,
@@ -44,7 +44,7 @@ enum Kind {
 }
 
 impl Figure {
-    /// Returns the result with the index of its channel.
+    /// Returns this result with the index of its channel in a row of samples.
     ///
     /// # Errors
     /// Fails if the channel does not exist, or the waveform does not exist or has no period.
@@ -66,13 +66,13 @@ impl Figure {
     }
 }
 
-/// Record that evaluates results during a run, from the first and last row and the rows at both ends of the last whole period.
+/// Receiver of run output that evaluates results from the first and last row and the rows at both ends of the last whole period.
 pub(crate) struct Reading<'a> {
     figures: &'a [Placed],
     watcher: &'a dyn Watcher,
     /// Results so far. Before the end of the run, an entry is the channel's value at the start of the run or of the last whole period.
     pub(crate) values: Vec<f64>,
-    /// Times at which rows are needed, s, ascending; and the index of the next one.
+    /// Times at which rows are needed, s, in ascending order; and the index of the next of these times.
     moments: Vec<f64>,
     next: usize,
     /// Start and end time of each result, s.
@@ -81,7 +81,7 @@ pub(crate) struct Reading<'a> {
     end: f64,
 }
 
-/// Relative tolerance for equal times, against rounding of multiples of a period.
+/// Relative difference below which two times are equal, because multiples of a period have rounding errors.
 const SAME: f64 = 4.0 * f64::EPSILON;
 
 impl<'a> Reading<'a> {
@@ -138,7 +138,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Returns start and end of the last whole period of a waveform before `end`, s. Returns infinite times if there is none.
+/// Returns start and end of the last whole period of a waveform before `end`, s, or infinite times without a whole period.
 fn last_period(scene: &Scene, waveform: usize, end: f64) -> [f64; 2] {
     let never = [f64::INFINITY; 2];
     let Some(waveform) = scene.waveforms.get(waveform).map(|named| &named.part) else { return never };

@@ -1,8 +1,8 @@
 //! Least-squares fit of scenario parameters to a measured loop or trajectory, with confidence intervals. Parameters
 //! that the data cannot distinguish are reported.
 //!
-//! Modules in reading order: `data`, measured rows; `model`, the simulated counterpart; `squares`, the minimisation.
-//! This file evaluates the result.
+//! Modules in reading order: `data`, measured rows; `model`, the simulation of these rows; `squares`, the minimisation. This file evaluates
+//! the result of the minimisation.
 
 mod data;
 mod error;
@@ -24,18 +24,18 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::measured::{How, Measured};
 use stickslip_run::{Job, Watcher};
 
-/// Thresholds for undetermined directions in the space of the logarithms of the parameters. A direction is undetermined
-/// if its standard deviation is at least `FREE`, or if its effect relative to the strongest direction is at most `WEAK`.
+/// Thresholds for undetermined directions in the space of the logarithms of the parameters. A direction is undetermined if its standard
+/// deviation is at least `FREE`, or if its singular value relative to the largest one is at most `WEAK`.
 const FREE: f64 = 3.0;
 const WEAK: f64 = 1e-6;
 /// Smallest component, relative to the largest, for a parameter to be reported in an undetermined direction.
 const SHARE: f64 = 0.2;
-/// Number of harmonics along the loop that contain most of the residual of a wrong model.
+/// Number of lowest harmonics along the loop that contain most of the residual of a wrong model.
 const HARMONICS: usize = 6;
-/// Quantile of the normal distribution above which the model does not fit; each of two tests has a significance level of 0.0005.
+/// Quantile of the normal distribution above which the model does not fit. Each of the two tests has a significance level of 0.0005.
 const MISFIT: f64 = 3.29;
-/// Residual relative to the largest force below which a model fits, whatever the noise; and the 97.5 % quantile of the
-/// normal distribution.
+/// Residual, relative to the largest force, below which a model fits regardless of the noise; and 97.5 % quantile of the normal
+/// distribution.
 const LITTLE: f64 = 1e-3;
 const NORMAL: f64 = 1.96;
 
@@ -65,7 +65,7 @@ pub struct Fitted {
     pub unit: &'static str,
     /// Value in the scenario.
     pub start: f64,
-    /// Best value.
+    /// Fitted value of the parameter.
     pub value: f64,
     /// Standard deviation.
     pub sd: f64,
@@ -80,7 +80,7 @@ pub struct Fitted {
 pub struct Fit {
     /// Parameters in the requested order.
     pub parameters: Vec<Fitted>,
-    /// Correlation matrix of their errors.
+    /// Correlation matrix of the errors of the parameters.
     pub correlations: Vec<Vec<f64>>,
     /// Sum of squared residuals divided by the variance of the noise.
     pub chi_squared: f64,
@@ -115,7 +115,7 @@ pub fn fit(
     let start = vec![0.0; asked.free.len()];
     told_apart(&squares.slopes(&start)?, data.sigma(asked.noise), &asked.free)?;
     let first = squares.least(&start)?;
-    // Noise of the displacement acts through the slope of the loop.
+    // Noise of the displacement acts on the force through the slope of the loop, which is known after the first fit.
     let squares = Squares { weights: data.weights(Some(&first.force)), ..squares };
     let mut found = squares.least(&first.place)?;
     found.runs += first.runs;
@@ -170,7 +170,7 @@ fn told_apart(slopes: &DMatrix<f64>, sigma: f64, free: &[String]) -> Result<(), 
     if groups.is_empty() { Ok(()) } else { Err(FitError::Undetermined(groups)) }
 }
 
-/// Returns the parameters fitted to bootstrap samples of the data. The watcher receives their number.
+/// Returns the parameters fitted to bootstrap samples of the data. The watcher receives the number of finished samples.
 fn drawn(
     squares: &Squares<'_>,
     found: &Found,
@@ -195,7 +195,7 @@ fn drawn(
     if watcher.goes_on() { Ok(places) } else { Err(FitError::Interrupted) }
 }
 
-/// Returns whether the residual is concentrated in the first harmonics along the loop, which noise is not.
+/// Returns whether the residual is concentrated in the first harmonics along the loop. The residual of noise contains all harmonics.
 fn is_smooth(left: &DVector<f64>) -> bool {
     let rows = left.len();
     let mut inside = 0.0;

@@ -7,18 +7,18 @@ use stickslip_run::Job;
 /// State of a body that no contact holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Loose {
-    /// All its contacts are open.
+    /// All contacts of the body are open.
     Flies,
-    /// All its contacts are in gross slip or open.
+    /// All contacts of the body are in gross slip or open.
     Slides,
 }
 
 /// Observer of the contacts of a body.
 pub(crate) struct Grip {
     contacts: Vec<usize>,
-    /// Indices of their indentation channels.
+    /// Indices of the indentation channels of these contacts.
     depths: Vec<usize>,
-    /// True if one of these contacts had an event since [`Self::begin`].
+    /// True if one of the contacts had an event since [`Self::begin`].
     was_met: bool,
     row: Vec<f64>,
 }
@@ -49,8 +49,7 @@ impl Grip {
 
     /// Returns the state of the body if no contact held it during the whole interval, and `None` otherwise.
     ///
-    /// Touching and sticking are events. Without an event, the state of the contacts at the end of the interval holds
-    /// for the whole interval.
+    /// Touching and sticking are events. In an interval without events, the state of the contacts at its end holds for the whole interval.
     pub(crate) fn loose(&mut self, model: &Model, run: &Run<'_>) -> Option<Loose> {
         let gives_way = |c: &usize| run.state().has_given_way(model, *c);
         if self.was_met || self.contacts.is_empty() || !self.contacts.iter().all(gives_way) {

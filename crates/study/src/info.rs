@@ -47,8 +47,8 @@ pub struct Info {
 }
 
 impl Info {
-    /// Computes the properties of a job. The search for the periodic orbit calls `goes_on` before every period and
-    /// stops if it returns `false`.
+    /// Computes the properties of a scenario. The search for the periodic orbit calls `goes_on` before every period and stops if `goes_on`
+    /// returns `false`.
     #[must_use]
     pub fn of(job: &Job, goes_on: &dyn Fn() -> bool) -> Self {
         let modes = info::modes(job);

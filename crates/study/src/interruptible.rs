@@ -2,7 +2,7 @@
 
 use stickslip_drive::{Event, Record, State};
 
-/// Passes all calls to `record`, except for `goes_on`, which cancels the run.
+/// Forwards all calls to `record`, except for `goes_on`, which may cancel the run.
 pub(crate) struct Interruptible<'a> {
     pub(crate) record: &'a mut dyn Record,
     pub(crate) goes_on: &'a dyn Fn() -> bool,

@@ -1,5 +1,5 @@
-//! Journal: file with the results of a study, written as they are computed. After an interruption, the same command reads it and computes
-//! only the missing results.
+//! Journal: file with the results of a study, written as they are computed. After an interruption, the same command reads the journal and
+//! computes only the missing results.
 //!
 //! Each line has one result: its key and its value as JSON, separated by a tab. Numbers are restored to all bits. A result depends only on
 //! its key and on the first line of the file.
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use stickslip_run::{folder, program};
 
-/// Results by their keys. A default journal has no file and stores nothing.
+/// Results with their keys. A default journal has no file and stores nothing.
 #[derive(Debug, Default)]
 pub struct Journal(Option<Mutex<Lines>>);
 
@@ -41,8 +41,8 @@ pub(crate) enum Held {
 impl Journal {
     /// Opens the journal of a study. `of` contains everything on which the results depend, such as the scenario.
     ///
-    /// Results of another study or program version are discarded, or all results if `is_fresh`. The file is written
-    /// with the first new result.
+    /// Results of another study or program version are discarded; all results are discarded if `is_fresh`. The file is written when the
+    /// first new result is known.
     ///
     /// # Errors
     /// Fails if the file cannot be read.
@@ -50,13 +50,13 @@ impl Journal {
         Ok(Self::held(path, of, is_fresh)?.0)
     }
 
-    /// Opens a journal like [`Self::open`]. Also returns what the file contained.
+    /// Opens a journal like [`Self::open`]. Also returns whether the file contained results of this study or of another study.
     pub(crate) fn held(path: PathBuf, of: &impl Serialize, is_fresh: bool) -> io::Result<(Self, Held)> {
         let head = format!("{}\t{}\n", json(&format!("{} {}", program::NAME, program::VERSION)), json(of));
         let text = match fs::read_to_string(&path) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => String::new(),
-            // A file without valid text is foreign.
+            // A file that is not valid UTF-8 does not belong to this study.
             Err(error) if error.kind() == ErrorKind::InvalidData => " ".to_owned(),
             Err(error) => return Err(error),
         };
@@ -80,7 +80,7 @@ impl Journal {
         Ok((Self(Some(Mutex::new(Lines { path, head, known, file, fault: None }))), held))
     }
 
-    /// Returns the result for a key from the journal, or computes it. A computed result is written if `is_kept` accepts it.
+    /// Returns the result for a key from the journal, or computes it. The journal stores a computed result if `is_kept` accepts it.
     pub(crate) fn found<T: Serialize + DeserializeOwned>(
         &self,
         key: &impl Serialize,
@@ -89,7 +89,7 @@ impl Journal {
     ) -> T {
         let Some(lines) = &self.0 else { return compute() };
         let key = json(key);
-        // Outside the `if` condition, which would hold the lock during its body.
+        // The lookup is outside the `if` condition, because a lock in the condition would be held during the body.
         let known = lock(lines).known.get(&key).and_then(|text| serde_json::from_str(text).ok());
         if let Some(known) = known {
             return known;
@@ -107,12 +107,12 @@ impl Journal {
         lock(lines).known.values().filter_map(|text| serde_json::from_str(text).ok()).collect()
     }
 
-    /// Returns the first write error, once.
+    /// Returns the first write error. Later calls return `None`.
     pub(crate) fn fault(&self) -> Option<io::Error> {
         lock(self.0.as_ref()?).fault.take()
     }
 
-    /// Rewrites the file with its lines in order. The file of an interrupted study is then reproducible.
+    /// Rewrites the file with its lines in order, so that the journal of an interrupted study is reproducible.
     ///
     /// # Errors
     /// Fails if the file cannot be written.
@@ -178,7 +178,7 @@ pub(crate) mod pairs {
     }
 }
 
-/// Serialises numbers, strings and lists, for which JSON has no errors.
+/// Serialises numbers, strings and lists as JSON, which cannot fail.
 fn json(what: &impl Serialize) -> String {
     serde_json::to_string(what).unwrap_or_default()
 }

@@ -3,8 +3,8 @@
 //! The crate has no terminal output and draws no plots. Results do not depend on the number of threads.
 //!
 //! Modules in reading order:
-//! * [`sweep`]: many runs, in parts on disk. `number` and `sketch` set parameters without reading the scenario again;
-//!   `figure` evaluates a run.
+//! * [`sweep`]: parameter sweeps of many runs, stored in parts on disk. The modules `number` and `sketch` change parameters without parsing
+//!   the scenario again; module `figure` evaluates the results of a run.
 //! * [`steady`]: periodic orbits and their stability.
 //! * [`curve`]: step length and velocity versus one parameter.
 //! * [`sensitivity`]: derivatives of results with respect to parameters.

@@ -32,12 +32,12 @@ use stickslip_scenario::suggestion;
 /// Default numbers of points on an axis: for results, and for regimes from runs.
 const POINTS: usize = 33;
 const POINTS_OF_RUNS: usize = 5;
-/// Point, relative to the axes, at which the program checks whether runs are needed.
+/// Point of the map, as fractions of both axes, at which the program checks whether runs are needed.
 const PROBE: [f64; 2] = [0.37, 0.61];
 /// Approximate number of contour levels.
 const CONTOURS: f64 = 7.0;
 
-/// Number of hash digits in the name of the folder of parts.
+/// Number of hash digits in the name of the folder that contains finished parts of a grid.
 const HASH: usize = 12;
 
 /// Settings of a map.
@@ -61,7 +61,7 @@ pub struct Map {
 enum Kind {
     /// A result of a study with a grid of runs.
     Result(Box<Study>),
-    /// Slip regime of the contact with this index; true if every case needs a run.
+    /// Slip regime of the contact with this index; true if every regime is computed by a run.
     Regime(usize, bool),
 }
 
@@ -78,14 +78,14 @@ pub struct Asked {
     pub of: String,
     /// Numbers of points on both axes, 2 to 1000.
     pub points: Option<[usize; 2]>,
-    /// Whether regimes are results of runs although waveforms alone prescribe the motion.
+    /// Whether regimes are computed by runs even if waveforms alone prescribe the motion.
     pub by_runs: bool,
 }
 
 /// Border between two regimes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Border {
-    /// Regimes on both sides, the one with less slip first.
+    /// Regimes on both sides of the border, beginning with the regime of less slip.
     pub between: [Regime; 2],
     /// Points along the border, SI. The last point of a closed border equals the first.
     pub points: Vec<[f64; 2]>,
@@ -98,7 +98,7 @@ pub struct Field {
     pub xs: Vec<f64>,
     /// Grid values of the y axis, SI.
     pub ys: Vec<f64>,
-    /// Result at each grid point, column by column: a number or the index of a word. NaN without result.
+    /// Result at each grid point, column by column: a number or the index of a word. NaN if there is no result.
     pub values: Vec<f64>,
     /// Words of the result; `None` for numbers.
     pub words: Option<Vec<String>>,
@@ -106,14 +106,14 @@ pub struct Field {
     pub borders: Vec<Border>,
     /// Contours: levels with their lines.
     pub contours: Vec<(f64, Vec<Vec<[f64; 2]>>)>,
-    /// Number of runs. For results it is the number of grid points.
+    /// Number of runs; for a map of a result, the number of grid points.
     pub runs: usize,
-    /// Reasons of missing results with their numbers, the most frequent first.
+    /// Reasons of missing results with the number of points for each, the most frequent first.
     pub faults: Vec<(String, usize)>,
 }
 
 impl Map {
-    /// Checks the settings. `set` has the overrides that are already part of the job.
+    /// Creates a map and checks its settings. `set` contains the overrides that are already part of the scenario.
     ///
     /// # Errors
     /// Fails if a path, range or result does not exist in the scenario.
@@ -268,8 +268,8 @@ fn study(
         format!("{}:{}", json!(axis.path), json!({ kind: [axis.range[0], axis.range[1], count] }))
     });
     let vary = vary.collect::<Vec<_>>().join(",");
-    // Overrides keep their order, because a later one may belong to a part that an earlier one creates. The last
-    // override of a path counts; overrides of the axes' parameters are dropped.
+    // Overrides keep their order, because an override may belong to a part that an earlier override creates. The last override of a path
+    // counts; overrides of the axes' parameters are dropped.
     let counts = |(place, (path, _)): &(usize, &(String, String))| {
         set[place + 1..].iter().all(|(later, _)| later != path) && axes.iter().all(|axis| axis.path != *path)
     };

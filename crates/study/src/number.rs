@@ -1,5 +1,5 @@
-//! Numeric parameters of a scenario that sweeps set directly, without reading the scenario file again. The general form for any key of the
-//! file is [`stickslip_scenario::Parameter`].
+//! Numeric parameters of a scenario that sweeps set directly, without reading the scenario file again. [`stickslip_scenario::Parameter`] is
+//! the general form for any key of the file.
 
 use crate::sketch::{Quantity, Sketch};
 use std::fmt;
@@ -8,8 +8,8 @@ use stickslip_drive::scene::{Axis, ContactStart, Load, Named, Normal, Varying};
 use stickslip_drive::{Scene, WaveformError};
 use thiserror::Error;
 
-/// A parameter of a scenario in SI units, identified by the index of its part. It is resolved once from a key path such
-/// as `bodies.slider.mass`.
+/// A parameter of a scenario in SI units, identified by the index of its part. The key path, such as `bodies.slider.mass`, is resolved
+/// once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Number {
     /// `bodies.NAME.mass`, kg, including mass from attached piezo stacks.
@@ -22,11 +22,11 @@ pub(crate) enum Number {
     Velocity(usize, Axis),
     /// `contacts.NAME.friction`: coefficient of friction.
     Friction(usize),
-    /// `contacts.NAME.normal.force` (N), `.indentation` (m) or `.radius` (m): the one that the contact has, if constant.
+    /// `contacts.NAME.normal.force` (N), `.indentation` (m) or `.radius` (m): the constant key that the contact has.
     Normal(usize),
     /// `contacts.NAME.gap`, m.
     Gap(usize),
-    /// `contacts.NAME.start.force` (N) or `.displacement` (m): the one that the contact has.
+    /// `contacts.NAME.start.force` (N) or `.displacement` (m): the key that the contact has.
     Preload(usize),
     /// `springs.NAME.stiffness`, N/m.
     SpringStiffness(usize),
@@ -54,7 +54,7 @@ pub(crate) enum Number {
 pub(crate) struct NumberError {
     /// Key path as given.
     pub path: String,
-    /// Reason, or what was expected.
+    /// Reason for the error, or the expected keys.
     pub why: String,
 }
 
@@ -116,7 +116,7 @@ impl Number {
         }
     }
 
-    /// Sets the parameter. Has no effect on waveforms, which a [`Sketch`] changes, or on parts without the parameter.
+    /// Sets the parameter. Has no effect on waveforms, which an editable [`Sketch`] changes, or on parts without the parameter.
     ///
     /// # Errors
     /// Fails if the coefficient of friction is invalid.
@@ -157,7 +157,7 @@ impl Number {
     }
 }
 
-/// Formats a number for `--set`: the shortest decimal number that is read back to the same bits.
+/// Formats a number for `--set` as the shortest decimal number with the same bits.
 pub(crate) fn text(value: f64) -> String {
     format!("{value:?}").trim_end_matches(".0").to_owned()
 }
@@ -222,7 +222,7 @@ fn read(scene: &Scene, path: &str) -> Result<Number, String> {
                 (ContactStart::Force(_), "force") | (ContactStart::Displacement(_), "displacement") => {
                     Number::Preload(c)
                 }
-                _ => return Err("the contact has another kind of start".to_owned()),
+                _ => return Err("the contact start is given by another key".to_owned()),
             }
         }
         ["springs", name, "stiffness"] => Number::SpringStiffness(place(&scene.springs, name)?),

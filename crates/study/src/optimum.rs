@@ -1,7 +1,7 @@
 //! Optimisation: maximum or minimum of a result over parameters of a scenario or the shape of a waveform.
 //!
 //! Modules in reading order:
-//! * `space`: from a point of the unit cube to the scenario; `shape`: waveforms within driver limits.
+//! * `space`: conversion of a point of the unit cube to a scenario; `shape`: waveforms within driver limits.
 //! * `search`: local searches from several points. Every evaluation is written to a journal.
 //! * `flatness`: decrease of the result near the optimum; `report`: output.
 
@@ -29,27 +29,27 @@ use stickslip_scenario::{Goal, ScenarioError, StudyFile};
 /// Name of the journal in the folder of the results.
 const JOURNAL: &str = "evaluations.txt";
 
-/// Results of a point, `None` for values that are not finite; or the reason of a failure.
+/// Results of a point, with `None` for results that are not finite; or the reason of a failure.
 type Written = Result<Vec<Option<f64>>, String>;
 
 /// Factors on the period for a robust optimum: ± 1 %.
 const STRETCHES: [f64; 3] = [0.99, 1.0, 1.01];
-/// Maximum number of further searches from better points found by sections.
+/// Maximum number of further local searches, started from better points on the sections through the optimum.
 const ROUNDS: usize = 8;
-/// Evaluations of a local search, per number of coordinates plus one.
+/// Maximum number of evaluations of a local search, divided by the number of coordinates plus one.
 const EVALUATIONS: usize = 40;
 
-/// An optimisation problem, read and checked.
+/// An optimisation problem, read from a study file and checked.
 pub struct Optimum {
     /// The scenario to be optimised.
     pub job: Job,
     pub(crate) goal: Goal,
     pub(crate) wanted: Wanted,
     pub(crate) space: Space,
-    /// Factors on the period with which a point is evaluated.
+    /// Factors on the waveform periods at which each point is evaluated.
     stretches: Vec<f64>,
     seed: u64,
-    /// SHA-256 of everything on which the evaluations depend.
+    /// SHA-256 of all data on which the evaluations depend.
     pub hash: String,
 }
 
@@ -62,7 +62,7 @@ pub struct Best {
     pub(crate) locals: Vec<Local>,
     /// Sections: the result along each coordinate through the optimum.
     pub sections: Vec<Section>,
-    /// Number of evaluations, and of those without a result.
+    /// Number of evaluations, and number of evaluations without a result.
     pub(crate) counts: (usize, usize),
 }
 
@@ -110,7 +110,7 @@ impl Optimum {
         let space = Space::new(&goal, &job);
         let stretches = match (goal.worst_of_period, space.has_period()) {
             (Some(true), false) => {
-                let message = "no waveform by name has a variable period";
+                let message = "no named waveform has a variable period";
                 return Err(file.refusal("worst_of_period", None, message, None));
             }
             (Some(false), _) | (None, false) => vec![1.0],
@@ -146,8 +146,8 @@ impl Optimum {
 
     /// Runs the optimisation on `threads` threads. The result does not depend on the number of threads.
     ///
-    /// The watcher receives the number of evaluations. Each evaluation is written to a journal in the folder `out`,
-    /// from which an interrupted search continues; `is_fresh` starts again.
+    /// The watcher receives the number of evaluations. Each evaluation is written to a journal in the folder `out`; an interrupted search
+    /// resumes from this journal unless `is_fresh`.
     ///
     /// # Errors
     /// Fails if the journal belongs to another search, the folder cannot be written, the watcher interrupts, or no
@@ -173,7 +173,7 @@ impl Optimum {
         let locals = search::search(&self.space.present(&self.job), effort, &judge);
         bench.check()?;
         let Some(mut locals) = locals else { return Err(StudyError::AllFailed(bench.reason())) };
-        // The first of equal points; there is at least one.
+        // Among local searches with equal results, the first is selected. There is at least one local search.
         let better = |best: Option<(Vec<f64>, f64)>, local: &Local| match best {
             Some(best) if best.1 >= local.to.1 => Some(best),
             _ => Some(local.to.clone()),
@@ -183,7 +183,7 @@ impl Optimum {
         let sections = loop {
             let (sections, beside) = flatness::sections(&self.space, &point, threads, &judge);
             bench.check()?;
-            // A point on a section may be better, because the simplex cannot cross a ridge of the result.
+            // A point on a section may be better, because the simplex method cannot cross a ridge of the result.
             let Some(found) = beside.filter(|found| found.1 > value && rounds < ROUNDS) else {
                 break sections;
             };
@@ -199,7 +199,7 @@ impl Optimum {
         Ok(Best { point, values, locals, sections, counts: bench.counts() })
     }
 
-    /// Returns the factor with which larger values are better.
+    /// Returns 1 for a maximum and -1 for a minimum: the factor with which larger results are better.
     pub(crate) fn sign(&self) -> f64 {
         if self.goal.is_maximum { 1.0 } else { -1.0 }
     }
@@ -224,7 +224,7 @@ impl Bench<'_> {
         }
     }
 
-    /// Returns the number of evaluations, and of those without a result.
+    /// Returns the number of evaluations, and the number of evaluations without a result.
     fn counts(&self) -> (usize, usize) {
         let all = self.journal.all::<Written>();
         let has_none =
@@ -238,7 +238,7 @@ impl Bench<'_> {
         reasons.unwrap_or_else(|| "the result has no value".to_owned())
     }
 
-    /// Returns the worst result of a point, with larger values better. Returns NaN if a result is missing.
+    /// Returns the worst result of a point over all period factors, signed so that larger is better. Returns NaN if a result is missing.
     fn judge(&self, point: &[f64]) -> f64 {
         let sign = self.optimum.sign();
         let worst =
@@ -264,7 +264,7 @@ impl Bench<'_> {
             self.watcher.reached((self.done.fetch_add(1, Ordering::Relaxed) + 1) as f64);
             found
         };
-        // An empty reason is an interruption.
+        // An empty reason means that the watcher interrupted.
         let is_kept = |found: &Written| !found.as_ref().is_err_and(String::is_empty);
         let found = self.journal.found(&point, compute, is_kept)?;
         Ok(found.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())

@@ -1,11 +1,11 @@
-//! Output files of a study: table, JSON report and plots. An interrupted study has its own file names and does not replace a complete one.
+//! Output files of a study: table, JSON report and plots. The files of an interrupted study do not replace those of a complete study.
 
 use serde::Serialize;
 use std::io;
 use stickslip_run::folder::Folder;
 use stickslip_run::hash;
 
-/// File names of table and report: of a complete study, then of an interrupted one.
+/// File names of table and report: first for a complete study, then for an interrupted study.
 pub(crate) type Names = [[&'static str; 2]; 2];
 
 /// Returns the `status` of a report: `interrupted` or `done`.
@@ -15,11 +15,11 @@ pub(crate) fn status(is_cut: bool) -> &'static str {
 
 /// Writes table, plots and, last, the report. Returns the names of all files.
 ///
-/// `report` creates the report from the names of all files and the hash of the table. Old plots named in `stale` are
-/// deleted if they are not written again. A complete study also deletes the files of an interrupted one.
+/// `report` creates the report from the names of all files and the hash of the table. Old plots named in `stale` are deleted if they are
+/// not written again. A complete study also deletes the files of an earlier interrupted study.
 ///
 /// # Errors
-/// Fails on file system errors. Old files are kept then, unless the error occurs while the new files are renamed.
+/// Fails on file system errors. Old files are then kept, unless the error occurs while the new files are renamed to their final names.
 pub(crate) fn publish<R: Serialize>(
     mut folder: Folder,
     (names, is_cut): (&Names, bool),

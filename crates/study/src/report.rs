@@ -9,10 +9,10 @@ use stickslip_run::{Job, Outcome};
 /// Message of an interrupted search for the periodic orbit.
 pub const GIVEN_UP: &str = "no periodic orbit: the search was interrupted";
 
-/// Returns the content of `summary.json` without file names, and whether the search for the periodic orbit was interrupted.
+/// Returns the content of `summary.json` without file names, and whether the search for a periodic orbit was interrupted.
 ///
-/// `goes_on` is called before every period; `false` interrupts the search. Only complete runs have a search. The search
-/// may use the remaining wall time of the run's limit.
+/// `goes_on` is called before every period; `false` interrupts the search. Only complete runs are followed by a search. The search may use
+/// the wall time that the run has left of its limit.
 pub fn summary(job: &Job, outcome: &Outcome, goes_on: &dyn Fn() -> bool) -> (Summary, bool) {
     let mut summary = Summary::new(job, outcome);
     if summary.status != Status::Done {

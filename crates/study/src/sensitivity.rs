@@ -1,8 +1,8 @@
 //! Sensitivities: derivatives of a run's results with respect to parameters of its scenario.
 //!
-//! A [`Sensitivity`] has a scenario, some [`Figure`]s (results) and some [`Quantity`]s (parameters).
-//! [`Sensitivity::take`] computes the [`Derivative`] of each result with respect to each
-//! parameter, with its error. If there is no derivative, it gives the reason and the slopes on both sides.
+//! A [`Sensitivity`] contains a scenario, some [`Figure`]s (results) and some [`Quantity`]s (parameters). [`Sensitivity::take`] computes
+//! the [`Derivative`] of each result with respect to each parameter, with its error. If a derivative does not exist, the analysis gives the
+//! reason and the slopes on both sides.
 //!
 //! Modules in reading order:
 //! * `figure`: results; `quantity`: parameters; `sample`: run of a variant.
@@ -43,13 +43,13 @@ use stickslip_run::{Job, Watcher};
 /// Request for derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Asked {
-    /// Names of results; empty for the default ones.
+    /// Names of results; empty for the default results.
     pub of: Vec<String>,
     /// Key paths of parameters; empty for all parameters of the model.
     pub to: Vec<String>,
     /// Adds the step length and velocity of the periodic orbit to the results.
     pub steady: bool,
-    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6. It replaces the integrator of the scenario.
+    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6. Runs use this tolerance and locate events.
     pub tolerance: f64,
 }
 
@@ -59,7 +59,7 @@ impl Default for Asked {
     }
 }
 
-/// Results and parameters of a scenario, with everything for their derivatives.
+/// Results and parameters of a scenario, with all data for the derivatives.
 pub struct Sensitivity {
     /// The unchanged scenario.
     pub job: Job,
@@ -77,34 +77,34 @@ pub struct Sensitivity {
 /// Computed derivatives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Taken {
-    /// Derivatives by result, then by parameter, in their order.
+    /// Derivatives by result, then by parameter, in the order of the figures and quantities of [`Sensitivity`].
     pub derivatives: Vec<Vec<Derivative>>,
     /// Standard deviation of the numerical noise of each result, if measured.
     pub noise: Vec<Option<f64>>,
-    /// Number of runs in addition to that of the unchanged scenario.
+    /// Number of runs in addition to the run of the unchanged scenario.
     pub runs: usize,
 }
 
-/// Number of levels on one side that makes closer ones unnecessary.
+/// Number of distances on one side that is sufficient without closer distances.
 const ENOUGH: usize = 4;
-/// Relative noise if it could not be measured, in tolerances.
+/// Relative noise of a result if it could not be measured, as a multiple of the tolerance.
 const UNMEASURED: f64 = 100.0;
-/// Factor between the two tolerances whose slopes are compared, and smallest tolerance. A factor of 10 is not enough:
-/// quadratures may have the same nodes and the same error.
+/// Ratio of the two tolerances whose slopes are compared, and smallest tolerance. A ratio of 10 is not enough: quadratures may have the
+/// same nodes and the same error.
 const DECADES: f64 = 100.0;
 const FINEST: f64 = 1e-13;
-/// Error of the slopes, as a fraction of their difference between both tolerances: if the other tolerance is finer, and if it is coarser.
+/// Error of a slope, as a fraction of the difference between the slopes at both tolerances: if the other tolerance is finer, or coarser.
 const MISSED: [f64; 2] = [2.0, 0.1];
-/// Tolerance of the outer runs, unless a larger one is requested.
+/// Tolerance of the runs at large distances, unless a larger tolerance is requested.
 const COARSE: f64 = 1e-9;
-/// Common relative error of all runs, in tolerances.
+/// Relative error that all runs have in common, as a multiple of the tolerance.
 const MISSED_ALIKE: f64 = 1e3;
-/// Sufficient relative error of a slope, and the elasticity below which the error is relative to this elasticity.
+/// Sufficient relative error of a slope, and smallest elasticity to which this error refers.
 const ENOUGH_OF: f64 = 1e-4;
 const ELASTICITY: f64 = 0.1;
 
 impl Sensitivity {
-    /// Prepares the derivatives. Runs the unchanged scenario.
+    /// Prepares the derivatives by a run of the unchanged scenario.
     ///
     /// # Errors
     /// Fails if the tolerance is out of range, the run stops early, or a result or parameter does not exist.
@@ -124,7 +124,7 @@ impl Sensitivity {
         Ok(Self { job, figures, quantities, tolerance, journal: Journal::default(), happened })
     }
 
-    /// Returns the approximate number of runs: a minimum, because events near the parameter value need more runs.
+    /// Returns the approximate number of runs. The number is a lower bound, because events near the parameter value need more runs.
     #[must_use]
     pub fn runs(&self) -> usize {
         let of = |quantity: &Quantity| match quantity.value {
@@ -136,9 +136,9 @@ impl Sensitivity {
 
     /// Computes the derivatives on `cores` threads. The result does not depend on the number of threads.
     ///
-    /// Four runs per parameter are sufficient if results are smooth, eight if events occur between them. Otherwise a series of decreasing
-    /// distances is used, and runs at another tolerance give the integration error. The watcher receives the number of finished runs. If
-    /// it interrupts, missing derivatives are [`Missing::NotRun`].
+    /// Four runs per parameter are sufficient if results are smooth, eight if events occur between the first four runs. Otherwise a series
+    /// of decreasing distances is used, and runs at another tolerance give the integration error. The watcher receives the number of
+    /// finished runs. If the watcher interrupts, missing derivatives are [`Missing::NotRun`].
     pub fn take(&self, cores: usize, watcher: &(dyn Watcher + Sync)) -> Taken {
         let has_rows = self.figures.iter().any(Figure::needs_rows);
         let done = AtomicUsize::new(0);
@@ -150,9 +150,9 @@ impl Sensitivity {
             bench.run(&scales, &variants.collect::<Vec<_>>())
         };
         let all = |of: &dyn Fn(usize) -> Vec<(f64, bool)>| by(&bench, of);
-        // At large distances noise has little effect, so cheaper runs are sufficient.
+        // At large distances noise has little effect, so runs at a coarser tolerance are sufficient.
         let coarse = Bench { tolerance: self.tolerance.max(COARSE), ..bench };
-        // For coarser tolerances only the series of distances gives an error estimate.
+        // If the requested tolerance is coarser, only the series of distances gives an error estimate.
         let pairs = |place: usize| ladder::pairs(ladder::PAIRS[place]).collect::<Vec<_>>();
         let is_asked = self.tolerance <= COARSE;
         let four = by(&coarse, &|_| if is_asked { pairs(0) } else { Vec::new() });
@@ -213,12 +213,12 @@ impl Sensitivity {
             let stencils: Vec<Option<Five>> = tried.iter().map(of_run).collect();
             let mut noises: Vec<f64> = stencils.iter().flatten().map(Five::noise).collect();
             noises.sort_by(f64::total_cmp);
-            // Median of the noise near all parameters, but at least the rounding error.
+            // Median of the noise in the runs of all parameters, but at least the rounding error.
             let noise = noises.get(noises.len() / 2).copied().unwrap_or(0.0);
             let noise = noise.max(f64::EPSILON * self.figures[f].value.abs());
             let slope = |(stencil, quantity): (&Option<Five>, &Quantity)| {
                 let stencil = stencil.as_ref()?;
-                // Roughness near one parameter only is not noise of the result, but an error of this slope.
+                // Roughness with respect to one parameter only is not noise of the result, but an error of the slope for this parameter.
                 let slope = stencil.slope(noise.max(stencil.noise()))?;
                 // Integration error that all runs have in common.
                 let missed = MISSED_ALIKE * tolerance * (self.figures[f].value / quantity.value).abs();
@@ -229,14 +229,14 @@ impl Sensitivity {
         (0..self.figures.len()).map(of).collect()
     }
 
-    /// Returns the values of a result at four neighbouring parameter values and its own. Returns `None` if the events
-    /// differ between both sides.
+    /// Returns the stencil of a result: its values at four neighbouring parameter values and at the parameter value itself. Returns `None`
+    /// if the events on both sides differ.
     fn five(&self, (f, own): (usize, f64), tried: &[Tried]) -> Option<Five> {
         let [below, above, near_below, near_above] = tried else { return None };
         let all = [below, above, near_below, near_above].map(|tried| tried.figure(f).ok());
         let [below, above, near_below, near_above] = all;
         let (below, above, near_below, near_above) = (below?, above?, near_below?, near_above?);
-        // Small loops close or not depending on rounding, at any distance. Their effect is visible in the result.
+        // Small loops close or not depending on rounding, at any distance. The effect of such loops is visible in the result.
         let is_settled = below.2 == near_below.2 && above.2 == near_above.2;
         if self.figures[f].reading.is_of_run() && is_settled && below.2 != above.2 {
             return None;
@@ -251,7 +251,7 @@ impl Sensitivity {
         (0..self.figures.len()).any(|f| self.near(&tried[q], f, noise[f]).bends_near_by())
     }
 
-    /// Returns whether events change on one side before there are enough levels.
+    /// Returns whether events on one side change before there are enough distances with unchanged events.
     fn needs_finer(&self, tried: &[Tried]) -> bool {
         let is_alike =
             |tried: &&Tried| tried.sample.as_ref().is_ok_and(|sample| sample.happened == self.happened);
@@ -262,8 +262,8 @@ impl Sensitivity {
         })
     }
 
-    /// Returns the noise of a result near a parameter value. Only runs with the same events are used, or all runs if
-    /// the events are never the same.
+    /// Returns the noise of a result near a parameter value. Only runs with the same events as the unchanged scenario are used, or all runs
+    /// if no distances have the same events.
     fn own_noise(&self, f: usize, tried: &[Tried]) -> Option<f64> {
         let is_of_run = self.figures[f].reading.is_of_run();
         let flickers = [-1.0, 1.0].into_iter().any(|sense| ladder::settled(tried, sense).is_none());
@@ -275,13 +275,13 @@ impl Sensitivity {
         ladder::neighbours(tried, self.figures[f].value, value).and_then(|values| stencil::noise(&values))
     }
 
-    /// Collects the data of a result near a parameter value. `noise` is the common noise of the result.
+    /// Collects the data of a result near a parameter value. `noise` is the noise of the result over all parameters.
     fn near<'a>(&'a self, tried: &'a [Tried], f: usize, noise: Option<f64>) -> Near<'a> {
         let figure = &self.figures[f];
         let common = noise.unwrap_or(UNMEASURED * self.tolerance * figure.value.abs());
         let own = self.own_noise(f, tried).unwrap_or(common);
         let noise = own.max(common).max(f64::EPSILON * figure.value.abs());
-        // Events belong to a run. A periodic orbit has its own events, which are not compared.
+        // Events belong to a run of the scenario. The events of a periodic orbit are not compared.
         let happened = figure.reading.is_of_run().then_some(&self.happened);
         Near { tried, figure: f, own: (figure.value, happened), noise }
     }
@@ -300,7 +300,7 @@ impl Sensitivity {
 }
 
 impl Taken {
-    /// Returns the elasticity: relative change of a result per relative change of a parameter. Returns `None` if one of them is 0.
+    /// Returns the elasticity: relative change of a result per relative change of a parameter. Returns `None` if result or parameter is 0.
     #[must_use]
     pub fn elasticity(asked: &Sensitivity, (f, q): (usize, usize), slope: f64) -> Option<f64> {
         let (figure, quantity) = (asked.figures[f].value, asked.quantities[q].value);
@@ -330,7 +330,7 @@ impl Taken {
             .count()
     }
 
-    /// Returns whether the computation was interrupted, so that runs of some derivatives are missing.
+    /// Returns whether the computation was interrupted, so that some derivatives lack runs.
     #[must_use]
     pub fn is_cut(&self) -> bool {
         let is_missing = |slope: &Result<Slope, Missing>| matches!(slope, Err(Missing::NotRun));
@@ -342,30 +342,30 @@ impl Taken {
     }
 }
 
-/// Returns the more accurate of two slopes, from outer and inner runs. Returns `None` if they contradict each other or
-/// the inner runs have none.
+/// Returns the more accurate of two slopes, from outer and inner runs. Returns `None` if the slopes contradict each other or the inner runs
+/// give no slope.
 fn agreed(far: Option<Slope>, near: Option<Slope>) -> Option<Slope> {
     let (Some(far), Some(near)) = (far, near) else { return near };
     let agree = (far.value - near.value).abs() <= far.error + near.error;
     agree.then_some(if near.error < far.error { near } else { far })
 }
 
-/// Returns the other tolerance for the estimate of the integration error, and whether it is the finer one.
+/// Returns the other tolerance for the estimate of the integration error, and whether the other tolerance is finer.
 fn other_tolerance(tolerance: f64) -> (f64, bool) {
     let finer = tolerance / DECADES;
     // 1e-11 / 100 is not exactly 1e-13.
     if finer >= 0.99 * FINEST { (finer.max(FINEST), true) } else { (tolerance * DECADES, false) }
 }
 
-/// Returns the largest difference between slopes at two tolerances, from the same variants. If only one side is known,
-/// the whole difference of the result counts.
+/// Returns the largest difference between slopes at two tolerances, from the same variants. If only one side has results, the difference of
+/// these results counts entirely.
 fn missed(tried: &[Tried], others: &[Tried], f: usize) -> f64 {
     let off = |other: &Tried| {
         let own = tried.iter().find(|own| own.share == other.share)?;
         let ((offset, other, _), (_, own, _)) = (other.figure(f).ok()?, own.figure(f).ok()?);
         Some((offset, other - own))
     };
-    // The two sides of each distance are adjacent.
+    // Variants below and above the parameter value at the same distance are adjacent in the list.
     let slopes =
         others.chunks_exact(2).map(|both| match both.iter().filter_map(off).collect::<Vec<_>>()[..] {
             [(below, by), (above, more)] => (more - by) / (above - below),
@@ -375,7 +375,7 @@ fn missed(tried: &[Tried], others: &[Tried], f: usize) -> f64 {
     slopes.map(f64::abs).fold(0.0, f64::max)
 }
 
-/// Returns the names, or an error if one occurs twice.
+/// Returns the names, or an error if a name occurs twice.
 fn once(names: &[String]) -> Result<impl Iterator<Item = &String>, SensitivityError> {
     match names.iter().enumerate().find(|(place, name)| names[..*place].contains(name)) {
         Some((_, twice)) => Err(SensitivityError::Twice(twice.clone())),

@@ -1,5 +1,5 @@
-//! Editable waveform. Its parameters are set one by one and checked only when the waveform is built; intermediate
-//! combinations may be invalid.
+//! Editable waveform. Parameters of the waveform are set individually and checked only when it is built, because intermediate combinations
+//! may be invalid.
 
 use stickslip_drive::{Shape, Timing, Waveform, WaveformError};
 
@@ -20,7 +20,7 @@ pub(crate) enum Quantity {
     Period,
 }
 
-/// Shape and timing of a waveform, not yet checked.
+/// Shape and timing of a waveform before they are checked.
 #[derive(Debug, Clone)]
 pub(crate) struct Sketch {
     shape: Shape,
@@ -80,7 +80,7 @@ impl Sketch {
     /// Builds the waveform.
     ///
     /// # Errors
-    /// Fails if the parameters are invalid together.
+    /// Fails if the combination of parameters is invalid.
     pub(crate) fn draw(&self) -> Result<Waveform, WaveformError> {
         Waveform::new(self.shape.clone(), self.timing)
     }

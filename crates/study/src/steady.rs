@@ -1,15 +1,14 @@
 //! Periodic orbits of a drive, found by shooting, and their stability.
 //!
-//! On a periodic orbit, one period of the waveforms brings the drive back to the same state, displaced by one step length. The state is a
-//! fixed point of the Poincaré map P, P(s) = s. A few simulated periods give a start value; Newton's method then solves P(s) - s = 0, also
-//! for unstable orbits. The eigenvalues of the Jacobian of P are the Floquet multipliers; they give the growth or decay of a disturbance
-//! per period.
+//! On a periodic orbit, one period of the waveforms returns the drive to the same state, displaced by one step length. A state s of the
+//! orbit is a fixed point of the Poincaré map P, P(s) = s. A few simulated periods give a start value; Newton's method then solves P(s) - s
+//! = 0, also for unstable orbits. The eigenvalues of the Jacobian of P are the Floquet multipliers, which give the growth or decay of a
+//! disturbance per period.
 //!
 //! Modules in reading order:
-//! * `endless`: waveforms without end, and the common period; `moment`: instant of the Poincaré section; `tally`: event
+//! * `endless`: continuation of waveforms without end, and their common period; `moment`: instant of the Poincaré section; `tally`: event
 //!   counts of a period.
-//! * `map`: Poincaré map and its Jacobian; `newton`: fixed point; `multiplier`: Floquet multipliers; `bound`: error of
-//!   the step length.
+//! * `map`: Poincaré map and its Jacobian; `newton`: fixed point; `multiplier`: Floquet multipliers; `bound`: error of the step length.
 //! * `orbit`: time histories over one period; `aftermath`: motion after leaving an unstable orbit.
 //! * `report`: output; `outlook`: search at limited cost, for the summary of a run.
 //! * [`continuation`]: branches of periodic orbits over a parameter.
@@ -48,8 +47,8 @@ use stickslip_run::Job;
 /// Options of the search for a periodic orbit.
 #[derive(Clone, Copy)]
 pub struct Options<'a> {
-    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6, default 1e-12. It
-    /// replaces the integrator of the scenario.
+    /// Tolerance of the local error per time step, relative to natural scales: 1e-13 to 1e-6, default 1e-12. This tolerance replaces that
+    /// of the scenario's integrator.
     pub tolerance: f64,
     /// Number of simulated periods before Newton's method starts, at least 2; default 4.
     pub settling: u32,
@@ -59,7 +58,7 @@ pub struct Options<'a> {
     pub steps: u64,
     /// Called before every period; `false` interrupts the search.
     pub goes_on: &'a dyn Fn() -> bool,
-    /// Receives the number of periods, including the one that starts.
+    /// Receives the number of simulated periods, including the period that begins.
     pub told: &'a dyn Fn(u32),
 }
 
@@ -81,9 +80,9 @@ impl Default for Options<'_> {
 pub struct Steady {
     /// Period, s: common period of all waveforms.
     pub period: f64,
-    /// Displacement of the body named in `figures` along x per period, m. `None` if no body is named or it is not free.
+    /// Displacement of the body named in `figures` along x per period, m. `None` if no body is named or the body is not free.
     pub step: Option<f64>,
-    /// Time after which everything is periodic, s: after all delays and all waveforms that run once.
+    /// Time after which all waveforms are periodic, s: after all delays and after the end of waveforms that run once.
     pub begins: f64,
     /// Tolerance of the local error per time step.
     pub tolerance: f64,
@@ -91,24 +90,24 @@ pub struct Steady {
     pub bound: f64,
     /// Model of the drive with endless waveforms.
     pub model: Model,
-    /// State at the fixed point; a run from here is periodic.
+    /// State at the fixed point; a run that starts in this state is periodic.
     pub state: State,
-    /// Floquet multipliers in descending order of modulus, without those of drifts. Empty if there are contacts of [`Self::holding`].
+    /// Floquet multipliers in descending order of modulus, without the multipliers of drifts. Empty if [`Self::holding`] returns contacts.
     pub multipliers: Vec<Multiplier>,
-    /// Number of drifts: directions along which only positions change. Each would have a multiplier of 1.
+    /// Number of drifts: directions along which only positions change. Each drift would have a multiplier of 1.
     pub drifts: usize,
     /// Names of the unknowns of the Poincaré map.
     pub unknowns: Vec<String>,
-    /// Names of the unknowns without a multiplier: a disturbance of them changes the number of corners of a slip memory.
+    /// Names of the unknowns without a multiplier, because a disturbance of them changes the number of breakpoints of a slip memory.
     pub untold: Vec<String>,
-    /// Indices of contacts whose slip memory is simulated but is not an unknown of the map. Multipliers do not include it.
+    /// Indices of contacts whose slip memory is simulated but is not an unknown of the map. The multipliers do not include this memory.
     pub carried: Vec<usize>,
-    /// Indices of contacts that never slip grossly in a period and keep their memory near the centre for ever. Such
-    /// orbits form a family (shakedown); this is the nearest member.
+    /// Indices of contacts that never slip grossly in a period and keep the central part of their slip memory for ever. Such orbits form a
+    /// family (shakedown); the search returns the nearest member.
     pub shaken_down: Vec<usize>,
-    /// True if the body named in `figures` slips on all its contacts during the whole period. It is dragged along and makes no step.
+    /// True if the body named in `figures` slips on all its contacts during the whole period, so that it is dragged along without steps.
     pub is_dragged: bool,
-    /// Largest defect in each period of the search, in natural scales, with the method that led to it.
+    /// Largest defect P(s) - s in each period of the search, in natural scales, with the method that led to this period.
     pub defects: Vec<Defect>,
     /// Number of simulated periods.
     pub work: u32,
@@ -133,28 +132,29 @@ impl Steady {
         self.step.map(|step| step / self.period)
     }
 
-    /// Returns the largest modulus of a multiplier. Returns 0 without multipliers, NaN if they are unknown.
+    /// Returns the largest modulus of a Floquet multiplier. Returns 0 without multipliers, NaN if the multipliers are unknown.
     #[must_use]
     pub fn radius(&self) -> f64 {
         let none = if self.lacks_multipliers() { f64::NAN } else { 0.0 };
         self.multipliers.first().map_or(none, Multiplier::modulus)
     }
 
-    /// Returns whether multipliers are missing: there are unknowns or memories outside of the map, but no multipliers.
+    /// Returns whether multipliers are missing: the map has unknowns, or the state includes memories outside of the map, but there are no
+    /// multipliers.
     fn lacks_multipliers(&self) -> bool {
         self.multipliers.is_empty() && !self.unknowns.is_empty() || !self.holding().is_empty()
     }
 
-    /// Returns the contacts that never slip grossly and whose memory is not an unknown of the map.
+    /// Returns the contacts that never slip grossly and whose slip memory is not an unknown of the map.
     ///
-    /// A body on such contacts oscillates about a position that depends on this memory. The map knows only a part of
-    /// this oscillation, so no multipliers are given.
+    /// A body on such contacts oscillates about a position that depends on the slip memory. The map represents only a part of this
+    /// oscillation, so no multipliers are given.
     #[must_use]
     pub fn holding(&self) -> Vec<usize> {
         self.carried.iter().copied().filter(|c| self.shaken_down.contains(c)).collect()
     }
 
-    /// Returns the reason why stability is unknown, if it is.
+    /// Returns the reason why stability is unknown, or `None` if stability is known.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let holding = self.named(&self.holding());
@@ -178,18 +178,18 @@ impl Steady {
         })
     }
 
-    /// Returns the number of periods of a waveform, s, in the common period of all waveforms.
+    /// Returns the common period of all waveforms divided by the period of one waveform, s.
     pub(crate) fn periods_of(&self, waveform: f64) -> f64 {
         (self.period / waveform).round().max(1.0)
     }
 
-    /// Returns whether no disturbance grows. A neutral multiplier of a shakedown counts as stable.
+    /// Returns whether no disturbance grows. A multiplier of 1 due to shakedown counts as stable.
     #[must_use]
     pub fn is_stable(&self) -> bool {
         self.multipliers.iter().all(|multiplier| multiplier.kind() != Kind::Grows)
     }
 
-    /// Returns whether the orbit belongs to a family of periodic orbits, so that its step length is one of many: a multiplier is 1.
+    /// Returns whether a multiplier is 1. The orbit then belongs to a family of periodic orbits with different step lengths.
     #[must_use]
     pub fn is_one_of_many(&self) -> bool {
         let is_one = |multiplier: &Multiplier| {
@@ -198,7 +198,7 @@ impl Steady {
         self.multipliers.iter().any(is_one)
     }
 
-    /// Returns whether the orbit is stable. Returns `None` if a disturbance is neutral or its effect is unknown. In a
+    /// Returns whether the orbit is stable. Returns `None` if a disturbance neither grows nor decays or its effect is unknown. In a
     /// shakedown, for example, a disturbed run may end in another orbit of the family.
     #[must_use]
     pub fn comes_back(&self) -> Option<bool> {
@@ -212,11 +212,11 @@ impl Steady {
     }
 }
 
-/// Finds the periodic orbit of a job's drive, with waveforms continued without end.
+/// Finds the periodic orbit of a drive, with waveforms continued without end.
 ///
-/// Memory of drivers and materials outside of the state vector is simulated and is not an unknown of the map. The
-/// largest stroke of a period resets the play operators of a ceramic. The search may take long if a drive with
-/// hysteresis never slips grossly; limit [`Options::periods`] there.
+/// Memory of drivers and materials outside of the state vector is simulated and is not an unknown of the map. The largest stroke of a
+/// period resets the play operators of a ceramic. The search may take long if a drive with hysteresis never slips grossly; in this case
+/// [`Options::periods`] should be limited.
 ///
 /// # Errors
 ///
@@ -242,12 +242,12 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
         true => Vec::new(),
         false => multiplier::of(&bound.gradient, (options.tolerance, fixed.defect.amax())),
     };
-    // Simulated periods do not stay near an unstable orbit.
+    // Additional simulated periods are useless near an unstable orbit, because they leave it.
     let fades = multipliers.iter().all(|it| matches!(it.kind(), Kind::Fades | Kind::Forgotten));
     let creeps = if carries && fades { moment::creep(&mut map, (&fixed, holding), figures)? } else { 0.0 };
     let Some(section) = map.section() else { return Err(SteadyError::NoPeriod) };
-    // A contact without gross slip under constant normal force has no mean displacement per period. Its displacement is
-    // the remaining change of a memory outside of the map.
+    // A contact without gross slip under constant normal force has no mean displacement per period. A remaining displacement shows a change
+    // of a slip memory outside of the map.
     let slides = |c: usize| section.slides(&fixed.image.way, c).abs();
     let slid = never_gave_way.iter().map(|c| slides(*c)).fold(0.0, f64::max);
     let names: Vec<String> = section.unknowns().iter().map(|unknown| section.name(*unknown)).collect();
@@ -272,7 +272,7 @@ pub fn find(job: &Job, options: &Options<'_>) -> Result<Steady, SteadyError> {
     Ok(found)
 }
 
-/// Returns the phrase that contacts never slip grossly.
+/// Returns a phrase which states that contacts never slip grossly.
 fn never_slip(names: &[String]) -> String {
     let verb = if names.len() == 1 { "is" } else { "are" };
     format!("{} {verb} never in gross slip", names.join(", "))

@@ -2,9 +2,9 @@
 //!
 //! Modules in reading order:
 //! * `design`: parameter values of each case, with `spread` (distributions) and `points` (sampling).
-//! * `wanted`: results of each run; `worker`: runs one case; `quick`: the same without reading the scenario again.
-//! * `part`: a part of the results as Parquet file; `folder`: folder of the parts; `desk`: distribution among threads;
-//!   `shard`: among processes.
+//! * `wanted`: results of each run; `worker`: run of one case; `quick`: run of one case without reading the scenario again.
+//! * `part`: a part of the results as Parquet file; `folder`: folder of the parts; `desk`: distribution of parts among threads; `shard`:
+//!   distribution of parts among processes.
 //! * `statistics` and `sobol_indices`: evaluation; `csv`: export.
 
 mod csv;
@@ -46,16 +46,16 @@ use wanted::Wanted;
 /// Maximum number of parts, which are files in one folder.
 const MOST_PARTS: u64 = 1 << 22;
 
-/// A parameter study, read and checked.
+/// A parameter study, read from a study file and checked.
 pub struct Study {
     /// The scenario.
     pub job: Job,
     pub(crate) file: StudyFile,
     pub(crate) design: Design,
     pub(crate) wanted: Vec<Wanted>,
-    /// SHA-256 of everything on which the content of a part depends: scenario, variations, results and program version.
+    /// SHA-256 of all data on which the content of a part depends: scenario, variations, results and program version.
     ///
-    /// The number of cases is not included, so that a study can be enlarged. It is included for a Latin hypercube.
+    /// The number of cases is excluded, so that a study can be enlarged, except for a Latin hypercube.
     pub hash: String,
 }
 
@@ -105,7 +105,7 @@ impl Study {
         Ok(study)
     }
 
-    /// Returns everything on which the content of a part depends.
+    /// Returns all data on which the content of a part depends, for the hash.
     fn definition(&self) -> serde_json::Value {
         json!({
             "program": format!("{} {}", program::NAME, program::VERSION),
@@ -116,7 +116,7 @@ impl Study {
         })
     }
 
-    /// Returns the study as text without references to other files. Reading it gives the same study with the same hash.
+    /// Returns the study as text without references to other files. The text gives the same study with the same hash.
     #[must_use]
     pub fn portable(&self) -> String {
         self.file.portable()
@@ -151,12 +151,12 @@ impl Study {
         self.file.results.iter().map(String::as_str)
     }
 
-    /// Returns the words of a result's codes. Returns `None` for a number.
+    /// Returns the words that the codes of a result represent, or `None` for a number.
     pub fn codes(&self, result: usize) -> Option<&[String]> {
         self.wanted.get(result)?.codes.as_deref()
     }
 
-    /// Reads a result of all cases from the parts in a folder: a number, or the code of a word. NaN without result.
+    /// Reads a result of all cases from the parts in a folder: a number, or the code of a word. NaN for cases without the result.
     ///
     /// # Errors
     /// Fails if parts are missing or cannot be read.
@@ -170,7 +170,7 @@ impl Study {
         Ok(all)
     }
 
-    /// Reads the reason for each case without results from the parts in a folder.
+    /// Reads the reasons for missing results of all cases from the parts in a folder.
     ///
     /// # Errors
     /// Fails if parts are missing or cannot be read.

@@ -21,14 +21,14 @@ use trip::Trip;
 pub(crate) struct Outside {
     mechanism: Mechanism,
     duration: f64,
-    /// Natural length, m, and velocity, m/s, of each free coordinate. Tolerances are relative to them.
+    /// Natural length, m, and velocity, m/s, of each free coordinate. Tolerances are relative to these units.
     scales: Vec<(f64, f64)>,
 }
 
 impl Outside {
     pub(crate) fn new(mechanism: Mechanism, duration: f64, scales: Vec<(f64, f64)>) -> Result<Self, String> {
         if !mechanism.has_constant_loads() {
-            return Err("contacts that bodies press".to_owned());
+            return Err("contacts under varying normal load".to_owned());
         }
         if mechanism.free.len() > 3 {
             return Err("more than three free coordinates".to_owned());

@@ -128,7 +128,7 @@ impl Arc {
 }
 
 /// Returns the distances from y to the upper and the lower turning point, in y = √z, by Halley's method. If the motion does not turn back
-/// before z = 0 (`!returns`), only the upper one has a meaning.
+/// before z = 0 (`!returns`), only the upper distance has a meaning.
 fn turning([b, d]: [f64; 2], y: f64, energy: f64, returns: bool) -> [f64; 2] {
     let (z, cube) = (y * y, y * y * y);
     let c = [energy, y * (2.0 * b - 5.0 * d * cube), b - 10.0 * d * cube, -10.0 * d * z, -5.0 * d * y, -d];

@@ -9,7 +9,7 @@ use stickslip_drive::scene::{Freedom, Normal, Varying};
 use stickslip_drive::{Counts, Model, Scene, Shape};
 use stickslip_run::Watcher;
 
-/// Relative deviation from an integer up to which a number of periods counts as one.
+/// Relative deviation from an integer up to which a number of periods counts as an integer.
 const WHOLE: f64 = 1e-9;
 
 /// Minimal code for a model, with N nodes.

@@ -1,4 +1,4 @@
-//! The page of frames, in Markdown.
+//! Markdown page of the benchmark of real-time frames.
 
 use super::picture::micro;
 use super::sheet::{orders, quantiles};
@@ -61,7 +61,7 @@ step, of `event` over the frame length. The errors of `event` follow its toleran
 /// Writes the page.
 ///
 /// # Errors
-/// A file that cannot be written, or whose place cannot be told from that of the tables.
+/// A file that cannot be written, or without a relative path to the folder of the tables.
 pub(super) fn write(findings: &Findings<'_>, file: &Path) -> io::Result<()> {
     let home = relative(&findings.request.out, parent(file))?;
     let at = |name: &str| link(&home.join(name));
@@ -102,7 +102,7 @@ pub(super) fn write(findings: &Findings<'_>, file: &Path) -> io::Result<()> {
     folder::write(file, page.as_bytes())
 }
 
-/// The frames without waiting in a sentence.
+/// Returns a sentence about the execution times of frames without pacing.
 fn summary(findings: &Findings<'_>) -> String {
     let times = findings.loops.iter().map(|of| quantiles(&of.timing.execution));
     let [least, most, high] = times.fold([f64::INFINITY, 0.0, 0.0], |[least, most, high], times| {
@@ -119,7 +119,7 @@ fn summary(findings: &Findings<'_>) -> String {
     )
 }
 
-/// A line of a table for each loop that nothing paced.
+/// Adds the table of loops without pacing, one line per loop.
 fn loops(page: &mut String, findings: &Findings<'_>) {
     page.push_str(
         "| scenario | period, µs | stepper | steps | frames | median | 99.9 % | 99.99 % | worst | median work | worst work | error, u_c | \
@@ -148,7 +148,7 @@ fn loops(page: &mut String, findings: &Findings<'_>) {
     );
 }
 
-/// The same after a clock.
+/// Adds the table of paced loops, one line per loop.
 fn paced(page: &mut String, findings: &Findings<'_>) {
     page.push_str(
         "| scenario | period, µs | stepper | frames | overruns | skipped | latency: median | 99.9 % | 99.99 % | worst | execution: median | \
@@ -167,7 +167,7 @@ fn paced(page: &mut String, findings: &Findings<'_>) {
     }
 }
 
-/// Errors over lengths of frames: a line for each scene and stepper.
+/// Adds the table of errors over the frame length, one line per scenario and stepper.
 fn errors(page: &mut String, findings: &Findings<'_>) {
     let lengths: Vec<String> =
         super::accuracy::LENGTHS.iter().map(|length| format!(" {} µs |", micro(*length))).collect();
@@ -183,7 +183,7 @@ fn errors(page: &mut String, findings: &Findings<'_>) {
     }
 }
 
-/// What the scenarios are; those beside the page have links.
+/// Adds the list of scenarios, with links to files in the folder of the page or below it.
 fn scenes(page: &mut String, findings: &Findings<'_>, folder: &Path) -> io::Result<()> {
     page.push_str("\n## Scenarios\n\n");
     for (place, scene) in findings.scenes.iter().enumerate() {
@@ -197,17 +197,17 @@ fn scenes(page: &mut String, findings: &Findings<'_>, folder: &Path) -> io::Resu
     Ok(())
 }
 
-/// Scene and period of a loop, as two cells.
+/// Returns the scenario name and the frame length of a loop as two table cells.
 fn head(findings: &Findings<'_>, of: &Loop) -> String {
     format!("`{}` | {}", name(findings.name(of)), micro(findings.length(of)))
 }
 
-/// A name inside of backticks, inside of a table.
+/// Returns a name for use inside backticks in a Markdown table.
 fn name(name: &str) -> String {
     name.replace('`', "'").replace('|', "\\|")
 }
 
-/// Median, 99.9 %, 99.99 % and worst in µs, as four cells.
+/// Returns median, 99.9 % and 99.99 % quantile and maximum in µs as four table cells.
 fn times(histogram: &Histogram) -> String {
     quantiles(histogram).map(micros).join(" | ")
 }
@@ -216,12 +216,12 @@ fn micros(time: f64) -> String {
     if time < 100.0 { format!("{time:.2}") } else { format!("{time:.0}") }
 }
 
-/// What a frame was counted to.
+/// Returns the counted work of a frame: steps, evaluations, and memory breakpoints changed and merged.
 fn works(work: &Work) -> String {
     super::sheet::SHOWN.map(|name| counted(work, name).to_string()).join(" / ")
 }
 
-/// The command that writes the page.
+/// Returns the command line that writes the page.
 fn command(findings: &Findings<'_>) -> String {
     let request = findings.request;
     let mut command = "stickslip-lab bench --realtime".to_owned();

@@ -26,7 +26,7 @@ pub(super) fn draw(findings: &Findings<'_>) -> Result<Vec<(String, Vec<u8>)>, Pl
     }
     let columns = STEPPERS.len() + usize::from(findings.request.paced > 0.0);
     let mut figure = times_grid(
-        "Frames in bins of a tenth of a decade, one after the other; and how late they wake, after a clock",
+        "Execution time of frames without pacing, and wake-up latency of paced frames; ten bins per decade",
         columns,
         &panels,
     );

@@ -51,7 +51,7 @@ pub(super) fn loops(findings: &Findings<'_>) -> String {
     text
 }
 
-/// Returns twelve times; those of the paced loop are empty without one.
+/// Returns twelve times as CSV fields. Without a paced loop, the fields of paced times are empty.
 fn times(timing: &Timing, paced: Option<&Timing>) -> String {
     let mut text = String::new();
     let all =

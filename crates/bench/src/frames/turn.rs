@@ -11,7 +11,7 @@ use stickslip_run::Watcher;
 const SHARE: f64 = 0.02;
 /// Number of counted work values; larger values count as the last one.
 const MOST_WORK: usize = 8192;
-/// Histogram of the work of frames. The work is evaluations plus twice the knots made or removed, each at about its cost.
+/// Histogram of the work of frames: evaluations plus twice the memory breakpoints added or removed, in proportion to their cost.
 #[derive(Debug, Clone)]
 pub(super) struct Works {
     counts: Vec<u64>,

@@ -91,8 +91,8 @@ fn from_rest(size: f64, scene: Result<Scene, String>, plan: Plan) -> Result<Poin
     Point::new(size, model, plan)
 }
 
-/// Returns the measurement of a contact with the memory of decreasing cycles, during a smaller cycle. The size is the number of knots of
-/// the memory.
+/// Returns the measurement of a contact with the memory of decreasing cycles, during a smaller cycle. The size is the number of breakpoints
+/// of the memory.
 fn swung(swings: u32) -> Result<Point, String> {
     let (scene, from) = remembering(swings, INNER)?;
     let model = Model::new(&scene).map_err(|error| error.to_string())?;

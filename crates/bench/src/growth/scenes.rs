@@ -35,8 +35,8 @@ pub(super) fn drive(sliders: u32, contacts: u32, engine: EngineChoice) -> Result
     Ok(scene)
 }
 
-/// Returns a heavy slider on a foot with `swings` decreasing half cycles and then `inner` equal cycles, and the start time of the latter,
-/// s.
+/// Returns a heavy slider on a foot with `swings` decreasing half cycles and then `inner` equal cycles, and the start time of the equal
+/// cycles, s.
 pub(super) fn remembering(swings: u32, inner: u32) -> Result<(Scene, f64), String> {
     let half = 0.5 * PERIOD;
     let outer = |k: u32| OUTER.0 + (OUTER.1 - OUTER.0) * f64::from(k) / f64::from(swings.max(2) - 1);

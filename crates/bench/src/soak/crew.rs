@@ -30,7 +30,7 @@ pub struct Seeds {
 
 /// Judges seeds. The watcher receives the number of judged seeds.
 ///
-/// A scenario that does not finish is abandoned. Its thread continues, because threads cannot be stopped, and a new thread replaces it.
+/// A scenario that does not finish is abandoned. The thread continues, because threads cannot be stopped, and a new thread takes its place.
 pub fn soak(seeds: &Seeds, watcher: &dyn Watcher) -> Vec<Finding> {
     let rows = usize::try_from(seeds.rows).unwrap_or(usize::MAX);
     let rowed: HashSet<u64> = seeds.seeds.iter().take(rows).copied().collect();
@@ -149,7 +149,7 @@ impl Shared {
     fn lost(&self, seed: u64) -> Finding {
         let mut finding = Finding::new(seed, (self.work.kind)(seed));
         let limit = self.work.given_up.as_secs_f64();
-        finding.turns(Verdict::Hung, || format!("no end after {limit} s, and no limit ended it"));
+        finding.turns(Verdict::Hung, || format!("not finished after {limit} s; no limit stopped the run"));
         finding
     }
 
@@ -168,7 +168,7 @@ fn remember(info: &PanicHookInfo<'_>) {
     let payload = info.payload();
     let words = payload.downcast_ref::<&str>().copied();
     let words = words.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
-    let words = words.unwrap_or("a panic without words");
+    let words = words.unwrap_or("a panic without a message");
     PANIC.with(|panic| *panic.borrow_mut() = format!("{place}: {words}"));
 }
 

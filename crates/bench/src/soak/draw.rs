@@ -25,7 +25,7 @@ impl Draw {
         low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Returns a number whose logarithm is uniform between those of two positive bounds.
+    /// Returns a number whose logarithm is uniform between the logarithms of two positive bounds.
     pub(super) fn spread(&mut self, low: f64, high: f64) -> f64 {
         math::exp(self.between(math::ln(low), math::ln(high)))
     }

@@ -3,7 +3,7 @@
 /// Verdict about a scenario. Of several runs, the last verdict in this order counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Verdict {
-    /// Within the tolerance, with a closed energy balance.
+    /// Within the tolerance, with a satisfied energy balance.
     Right,
     /// As [`Self::Right`], with a warning before the run.
     Warned,
@@ -15,8 +15,8 @@ pub enum Verdict {
     Limited,
     /// Undecided: neither method is accurate enough to judge the other.
     Undecided,
-    /// Deviation larger than the growth of a perturbation of 1e-9 explains, but not larger than that of a perturbation of the tolerance's
-    /// size. This happens for grazing contacts.
+    /// Deviation explained by the growth of a perturbation of the tolerance's size, but not by that of a perturbation of 1e-9. This happens
+    /// for grazing contacts.
     Grazing,
     /// Energy balance violated.
     Unbalanced,
@@ -113,7 +113,7 @@ impl Finding {
         }
     }
 
-    /// Records a verdict. The worst one is kept; of equal ones the first.
+    /// Records a verdict. The worst verdict is kept; of equal verdicts, the first.
     pub(super) fn turns(&mut self, verdict: Verdict, note: impl FnOnce() -> String) {
         if verdict > self.verdict {
             (self.verdict, self.note) = (verdict, note());

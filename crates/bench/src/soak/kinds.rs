@@ -16,7 +16,7 @@ pub enum Kind {
     Chain,
     /// Slider with coupled normal motion on a moving foot.
     Planar,
-    /// Slider on two such contacts, which may rock.
+    /// Slider on two contacts with coupled normal motion, which may rock.
     Rocking,
     /// Body released above, on or in the ground.
     Ball,

@@ -11,7 +11,7 @@ use stickslip_drive::{SceneError, Stepper};
 const SPRINGS: usize = 2048;
 /// Largest allowed difference, in natural units.
 const MOST: f64 = 1e-5;
-/// Number of steps of the first run; each further run doubles it.
+/// Number of steps of the first run; each further run doubles the number.
 const STEPS: f64 = 20_000.0;
 /// Largest number of steps.
 const FINEST: f64 = 700_000.0;
@@ -45,7 +45,7 @@ pub(super) fn against_row(finding: &mut Finding, trial: &Trial, finest: &Ran) {
     if apart.by > allowed * finding.growth {
         let (by, name, own) = (apart.by, apart.name, finding.row[1]);
         finding.turns(Verdict::Wrong, || {
-            format!("{name} {by:.1e} from a row of {SPRINGS} springs by verlet, itself good to {own:.1e}, S {growth:.1e}")
+            format!("{name} differs by {by:.1e} from {SPRINGS} springs by verlet, whose own error is {own:.1e}, S {growth:.1e}")
         });
     }
 }
@@ -61,7 +61,7 @@ fn on(trial: &Trial, engine: EngineChoice) -> Result<Trial, SceneError> {
     Trial::new(scene, trial.plan)
 }
 
-/// Returns the difference to a row of half the springs at the same step, or 0 if it cannot be run.
+/// Returns the difference to a row of half as many springs at the same step, or 0 if that row cannot be run.
 fn halved(finding: &mut Finding, trial: &Trial, reference: &Ran, step: f64) -> f64 {
     let Ok(rows) = on(trial, row(SPRINGS / 2)) else { return 0.0 };
     let Ok(ran) = rows.run(Stepper::Verlet { step }) else { return 0.0 };
@@ -72,7 +72,7 @@ fn halved(finding: &mut Finding, trial: &Trial, reference: &Ran, step: f64) -> f
 /// Run with fixed steps.
 struct Reference {
     ran: Ran,
-    /// Own error in natural units: the difference from the run at twice the step, but at least half of the error before. Single
+    /// Own error in natural units: the difference from the run at twice the step, but at least half of the previous error. Single
     /// differences may be small by chance.
     own: f64,
     /// Step, s.

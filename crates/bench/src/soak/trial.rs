@@ -133,7 +133,7 @@ impl Trial {
         f64::EPSILON * widest / lengths.fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the natural scales of a body: those of its most sensitive contact.
+    /// Returns the natural scales of a body: the scales of its most sensitive contact.
     fn scale(&self, body: usize) -> Option<Scale> {
         scale(&self.scene, &self.model, body)
     }
@@ -165,7 +165,7 @@ struct Scale {
 }
 
 /// Returns the natural scales of a body. Along the slide the scale is u_c, but at most the larger of stroke and indentation. Without
-/// friction it is the indentation.
+/// friction the scale is the indentation.
 fn scale(scene: &Scene, model: &Model, body: usize) -> Option<Scale> {
     let widest = scene.waveforms.iter().map(|w| w.part.range().1 - w.part.range().0).fold(0.0, f64::max);
     let mut least: Option<Scale> = None;
@@ -200,7 +200,7 @@ fn scale(scene: &Scene, model: &Model, body: usize) -> Option<Scale> {
     least
 }
 
-/// Returns the columns of free coordinates with their natural units; without free coordinates those of the tangential forces.
+/// Returns the columns of free coordinates with their natural units; without free coordinates, the columns of tangential forces.
 fn looks(scene: &Scene, model: &Model, channels: &[Channel]) -> Vec<(usize, f64)> {
     let place = |name: String| channels.iter().position(|channel| channel.name == name);
     let mut looks = Vec::new();

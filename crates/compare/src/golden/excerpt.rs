@@ -9,14 +9,14 @@ use std::path::Path;
 use stickslip_run::files::{EVENTS, SCENARIO, SUMMARY, TRACE};
 use stickslip_run::{Seal, hash};
 
-/// Maximum size of the rows between the first and the last, in bytes. At least `FEWEST` rows are kept.
+/// Maximum size of the rows between the first and the last row, in bytes. At least `FEWEST` of these rows are kept.
 const BYTES: usize = 12_000;
 const FEWEST: usize = 10;
 const MOST: usize = 40;
-/// Maximum numbers of events and step lengths. Only the first events are kept.
+/// Maximum number of events, of which the first are kept, and maximum number of step lengths.
 const EVENTS_KEPT: usize = 300;
 const STEPS_KEPT: usize = 200;
-/// Parts of the summary that are kept.
+/// Parts of the summary that an excerpt contains.
 const PARTS: [&str; 7] = ["program", "stepper", "status", "simulated_s", "contacts", "steps", "energy"];
 
 /// Returns the names and contents of the files of an excerpt.
@@ -42,7 +42,7 @@ pub(super) fn of(folder: &Path) -> Result<Vec<(&'static str, String)>, GoldenErr
         counts["events_whole_until_s"] = whole.into();
     }
     summary.insert("counts".to_owned(), counts);
-    // Hashes of the complete tables. They show whether another run is byte-identical to the recorded one.
+    // Hashes of the complete tables show whether another run is byte-identical to the recorded run.
     let [rows, happened] = results.hashes();
     summary.insert("excerpt_of".to_owned(), json!({ TRACE: rows, EVENTS: happened }));
     summary.insert("scenario_sha256".to_owned(), hash(&scenario).into());
@@ -54,7 +54,7 @@ pub(super) fn of(folder: &Path) -> Result<Vec<(&'static str, String)>, GoldenErr
 
 /// Returns the heading, the first row, the last row and some rows between them.
 ///
-/// The rows are spread by the golden ratio. Therefore they sample many phases of the drive period.
+/// The rows are spread by the golden ratio, so they sample many phases of the drive period.
 fn rows(path: &Path, count: usize) -> std::io::Result<String> {
     let mut lines = BufReader::new(File::open(path)?).lines();
     let head = lines.next().transpose()?.unwrap_or_default();
@@ -80,7 +80,7 @@ fn spread(rows: usize, between: usize) -> Vec<usize> {
     places
 }
 
-/// Returns time, source and kind of the first events. If there are more events, it also returns the time of the last returned one.
+/// Returns time, source and kind of the first events. If there are more events, also returns the time of the last returned event.
 fn events(path: &Path) -> std::io::Result<(String, Option<f64>)> {
     let mut lines = BufReader::new(File::open(path)?).lines();
     let mut kept = Vec::new();

@@ -16,14 +16,14 @@ const LETTERS: usize = 8;
 /// Returns the reason on a single line.
 ///
 /// # Errors
-/// The reason has fewer than eight letters.
+/// Fails if the reason has fewer than eight letters.
 pub(super) fn checked(reason: &str) -> Result<String, GoldenError> {
     let letters = reason.chars().filter(|c| c.is_alphabetic()).count();
     let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "/");
     if letters < LETTERS { Err(GoldenError::NoReason) } else { Ok(reason) }
 }
 
-/// Adds a line to the log.
+/// Appends a line to the log of changes.
 pub(super) fn append(root: &Path, names: &[String], reason: &str) -> Result<(), GoldenError> {
     let path = root.join(LOG);
     let text = match fs::read_to_string(&path) {

@@ -7,8 +7,8 @@
 //! The force continues smoothly beyond both ends of the piece. A time step may therefore cross the end of a branch and locate the
 //! event afterwards. The event is a zero crossing of [`Branch::margin`] or of the sliding velocity.
 //!
-//! Symbols: direction σ; slope κ of the friction limit; slip front h_c; level L of the limit line. The piece has the slope k and the
-//! gain γ (force per ΔM). The knot below the piece has the height h₁, level ℓ₁ and sums S₁, M₁.
+//! Symbols: direction σ; slope κ of the friction limit; slip front h_c; level L of the limit line. The piece has the slope k and the gain γ
+//! (force per ΔM). The breakpoint below the piece has the height h₁, level ℓ₁ and sums S₁, M₁.
 
 use super::{Curve, cut, knot::Knot};
 use crate::words::{Words, push};
@@ -25,8 +25,8 @@ pub struct Branch {
     pub(super) factor: f64,
     /// Level ℓ₁ at which the piece ends; ∞ in gross slip.
     pub(super) level: f64,
-    /// Level at which the piece begins; -∞ for a single piece. At lower levels the limit line still crosses later pieces of the same
-    /// growth path.
+    /// Level of the limit line at which the piece begins; -∞ for a single piece. At lower levels the limit line still crosses later pieces
+    /// of the same growth path.
     entry: f64,
     /// Ratio -dh_c/dL = 1/(κ-σk).
     pub(super) flow: f64,
@@ -39,7 +39,7 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// Smallest positive height of a slip front, m. At this height, m is the width of the profile's flat, if any.
+    /// Smallest positive height of a slip front, m. At this height the reduced stiffness m(h) is the width of the profile's flat, if any.
     pub const CENTRE: f64 = f64::MIN_POSITIVE;
 
     /// Returns whether the branch is gross slip.
@@ -52,7 +52,7 @@ impl Branch {
         self.height == 0.0 && !self.is_gross()
     }
 
-    /// Returns the height of the knot below the piece, m.
+    /// Returns the height of the breakpoint below the piece, m.
     pub fn foot(&self) -> f64 {
         self.height
     }
@@ -95,7 +95,7 @@ impl Branch {
         [modulus * stiffness, modulus * coupling]
     }
 
-    /// Returns the sliding distance of the limit line since the last spring began to slip, m.
+    /// Returns the distance that the limit line has moved since the last sticking spring began to slip, m.
     ///
     /// The value is negative while any spring sticks and -∞ in gross slip, which has no end.
     pub fn beyond(&self, d: f64, u: f64) -> f64 {
@@ -176,9 +176,9 @@ impl Branch {
 
     /// Returns force, N, friction power, W, and m at the slip front, m, of a moving apex. `reduced_force` is M(d), m².
     ///
-    /// The values are those of [`Branch::force`] and [`Branch::friction_power`], with one evaluation of the profile for both. The
-    /// length m is that of the sticking part of the foundation; 0 in gross slip. The values continue smoothly beyond the ends of the
-    /// branch, also for a front above d or below the centre.
+    /// Force and power equal [`Branch::force`] and [`Branch::friction_power`], with one evaluation of the profile for both. The length m
+    /// belongs to the sticking part of the foundation; 0 in gross slip. The values continue smoothly beyond the ends of the branch, also
+    /// for a front above d or below the centre.
     #[inline(always)]
     pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 3] {
         let Motion { d, u, dd, du } = *at;
@@ -223,7 +223,7 @@ pub struct Dragged {
 impl Curve {
     /// Returns the branch of direction `sense` (+1 or -1) that starts at the committed apex.
     ///
-    /// Knots within `slack` (m) of the limit line count as reached, because the caller has just located the end of the piece there.
+    /// Breakpoints within `slack` (m) of the limit line count as reached, because the caller has just located the end of the piece there.
     // Without slack, rounding could find the same event repeatedly.
     pub fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
         let slope = law.stick_slope();
@@ -232,7 +232,7 @@ impl Curve {
         // A piece parallel to the limit line has no crossing and is shifted as a whole.
         let crosses = |w: &[Knot]| w[0].level(sense, slope) > level && !cut::runs_along(slope, sense, &w[1]);
         let Some(top) = self.knots.windows(2).rposition(crosses) else { return gross };
-        // The pieces of one growth path form one branch, which ends where the path began. The knots between them come from time steps
+        // The pieces of one growth path form one branch, which ends where the path began. The breakpoints between them come from time steps
         // and are no events.
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
         // If the first piece is parallel to the limit line, only the last one is crossed.

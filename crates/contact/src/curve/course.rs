@@ -13,7 +13,7 @@ pub enum Course {
     #[default]
     Open,
     /// The contact grows in full stick: s₊ ≤ 0 ≤ s₋. The force then depends on the path and is integrated as a state.
-    // For the other kinds straight paths are exact. Here a straight path is of second order, and error estimates do not see the error.
+    // For the other kinds of motion straight paths are exact. Here, a straight path has an error of second order that estimates miss.
     Grow,
     /// Forward slip: s₊ > 0.
     Forward,
@@ -35,7 +35,7 @@ impl Course {
 impl Curve {
     /// Returns the kind of motion of a contact, from the signs of s₊ = u̇-κḋ and s₋ = u̇+κḋ.
     ///
-    /// If both limit lines would slip while the contact shrinks, the direction is the side of the curve on which the path leaves it.
+    /// If both limit lines would slip while the contact shrinks, the slip direction is the side of the memory curve on which the path ends.
     pub fn course(&self, law: &Interface, dd: f64, du: f64) -> Course {
         let limit = law.stick_slope() * dd;
         if self.apex.d < 0.0 || self.apex.d == 0.0 && dd <= 0.0 {

@@ -1,14 +1,14 @@
 //! Intersection of a limit line with the memory curve, at the end of a straight path of the apex.
 //!
-//! For a direction σ each knot has the level σp - κh, and the apex has the level σu - κd. Levels decrease from the centre to the edge
-//! of the contact. The limit line shifts all points of a lower level than the apex. The limit line leaves the old curve where the
-//! levels are equal.
+//! For a direction σ each breakpoint has the level σp - κh, and the apex has the level σu - κd. Levels decrease from the centre to the edge
+//! of the contact. The limit line shifts all points of a lower level than the apex. The limit line leaves the old curve where the levels
+//! are equal.
 
 use super::front::Front;
 use super::knot::Knot;
 use crate::{Apex, Interface, Response};
 
-/// Number of knots at the top that are searched linearly, before a binary search.
+/// Number of breakpoints at the top that are searched linearly, before a binary search.
 const NEAR: usize = 8;
 
 /// Effect of a straight path on the curve.
@@ -29,11 +29,11 @@ pub(super) enum Drag {
 pub(super) struct Edge {
     /// Slip direction: +1 forward, -1 backward.
     pub(super) sense: f64,
-    /// Number of knots that remain; 0 in gross slip.
+    /// Number of breakpoints that remain; 0 in gross slip.
     pub(super) kept: usize,
     /// Height at which the limit line begins, m.
     pub(super) height: f64,
-    /// Whether the limit line begins inside a piece, above the last remaining knot.
+    /// Whether the limit line begins inside a piece, above the last remaining breakpoint.
     pub(super) splits: bool,
 }
 
@@ -60,7 +60,7 @@ impl Drag {
     }
 }
 
-/// Returns the rest position at a height. The curve must have at least one knot.
+/// Returns the rest position at a height. The curve must have at least one breakpoint.
 pub(super) fn anchor(knots: &[Knot], h: f64) -> f64 {
     anchor_and_slope(knots, h)[0]
 }
@@ -72,7 +72,7 @@ pub(super) fn anchor_and_slope(knots: &[Knot], h: f64) -> [f64; 2] {
     [end.p - end.slope * (end.h - h), end.slope]
 }
 
-/// Returns whether the piece that ends in a knot is parallel to the limit line of a direction.
+/// Returns whether the piece that ends in a breakpoint is parallel to the limit line of a direction.
 pub(super) fn runs_along(slope: f64, sense: f64, end: &Knot) -> bool {
     // The tolerance is far above rounding and far below the slopes that growth leaves. A piece this close to the slope κ was made by slip.
     slope - sense * end.slope <= 1e-9 * slope
@@ -80,7 +80,7 @@ pub(super) fn runs_along(slope: f64, sense: f64, end: &Knot) -> bool {
 
 /// Returns the force over G\*, m², and the height at which the limit line of a direction begins, m.
 ///
-/// Both are computed with the slope of the piece at which the limit line begins, also beyond the ends of that piece.
+/// Force and height are computed with the slope of the piece at which the limit line begins, also beyond the ends of that piece.
 pub(super) fn onward(law: &Interface, knots: &[Knot], sense: f64, to: Apex) -> (f64, f64) {
     let slope = law.stick_slope();
     let (edge, whole) = (sense * slope, law.profile().reduced_force(to.d));
@@ -140,7 +140,7 @@ impl Edge {
         Front { sense: self.sense, height: if self.is_gross() { f64::NEG_INFINITY } else { self.height } }
     }
 
-    /// Returns the knot at which the limit line begins: the intersection, or in gross slip the centre.
+    /// Returns the breakpoint at which the limit line begins: the intersection, or in gross slip the centre.
     pub(super) fn foot(&self, law: &Interface, knots: &[Knot], to: Apex) -> Knot {
         if self.is_gross() {
             return Knot::touch(to.u - self.sense * law.stick_slope() * to.d);
@@ -149,7 +149,7 @@ impl Edge {
         if self.splits { base.point(law, &knots[self.kept], self.height) } else { *base }
     }
 
-    /// Returns the knot of the apex at the end of the limit line. `top` is the previous apex, whose M and N are reused at equal d.
+    /// Returns the breakpoint of the apex at the end of the limit line. `top` is the previous apex, whose M and N are reused at equal d.
     #[inline]
     pub(super) fn end(&self, law: &Interface, foot: &Knot, top: Option<&Knot>, to: Apex) -> Knot {
         let slope = self.sense * law.stick_slope();
@@ -179,7 +179,7 @@ impl Edge {
     pub(super) fn shear(&self, law: &Interface, knots: &[Knot], to: Apex) -> f64 {
         let edge = self.sense * law.stick_slope();
         let whole = match knots.last() {
-            // At constant d the value M(d) of the top knot is reused.
+            // At constant d the value M(d) of the top breakpoint is reused.
             Some(top) if top.h == to.d => top.reduced_force,
             _ => law.profile().reduced_force(to.d),
         };

@@ -8,11 +8,11 @@ use crate::Profile;
 pub struct FixedDepthBranch {
     /// Direction σ.
     sense: f64,
-    /// Level of the knot below the piece, minus that of the apex at u = 0, m.
+    /// Level of the breakpoint below the piece, minus the level of the apex at u = 0, m.
     level: f64,
     /// Factor 1/(κ-σk); 0 in gross slip.
     flow: f64,
-    /// Height of the knot below the piece, m.
+    /// Height of the breakpoint below the piece, m.
     height: f64,
     /// Force F₀ with the slip front in the centre, N.
     base: f64,

@@ -1,11 +1,11 @@
-//! Knot of the memory curve, with integrals over the curve below it.
+//! Breakpoint of the memory curve, with integrals over the curve below it.
 //!
-//! Knots are removed from the top only, so the integrals of the remaining knots stay valid. Force and energy of a new apex follow
-//! from the knot below it.
+//! Breakpoints are removed from the top only, so the integrals of the remaining breakpoints stay valid. Force and energy of a new apex
+//! follow from the breakpoint below it.
 
 use crate::{Apex, Interface};
 
-/// Knot (h, p) and the integrals over the curve below it.
+/// Breakpoint (h, p) and the integrals over the curve below it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Knot {
     /// Height h, m.
@@ -30,7 +30,7 @@ pub(super) struct Knot {
 }
 
 impl Knot {
-    /// Returns the knot of a contact that touches at displacement u.
+    /// Returns the breakpoint of a contact that touches at displacement u.
     pub(super) fn touch(u: f64) -> Self {
         Self {
             h: 0.0,
@@ -51,31 +51,31 @@ impl Knot {
         self.gain != self.slope
     }
 
-    /// Returns the level σp - κh of the knot, m, for a direction σ and slope κ.
+    /// Returns the level σp - κh of the breakpoint, m, for a direction σ and slope κ.
     #[inline]
     pub(super) fn level(&self, sense: f64, slope: f64) -> f64 {
         sense * self.p - slope * self.h
     }
 
-    /// Returns the apex at this knot.
+    /// Returns the apex at this breakpoint.
     pub(super) fn apex(&self) -> Apex {
         Apex { d: self.h, u: self.p }
     }
 
-    /// Returns the knot at the end of a straight piece from here to (h, p). The slope is given separately to avoid cancellation.
+    /// Returns the breakpoint at the end of a straight piece from here to (h, p). The slope is given separately to avoid cancellation.
     #[inline]
     pub(super) fn grow(&self, law: &Interface, h: f64, slope: f64, p: f64) -> Self {
         let [reduced_force, reduced_energy] = law.profile().reduced_sums(h);
         self.extend(h, p, slope, slope, reduced_force, reduced_energy)
     }
 
-    /// Returns the knot at the end of a straight growth piece in full stick.
+    /// Returns the breakpoint at the end of a straight growth piece in full stick.
     #[inline]
     pub(super) fn stick(&self, law: &Interface, to: Apex) -> Self {
         self.grow(law, to.d, (to.u - self.p) / (to.d - self.h), to.u)
     }
 
-    /// Returns the knot at the end of a piece with given slope, gain, M(h) and N(h).
+    /// Returns the breakpoint at the end of a piece with given slope, gain, M(h) and N(h).
     ///
     /// Over a piece of slope k and gain γ, ∫(p₂-p)²dm grows by 2S₁Δp + 2kγ(ΔN - ΔhM₁), where S₁ is the shear integral below. The
     /// derivation uses dB = 2S dp with S = S₁ + γ(M-M₁).
@@ -107,10 +107,10 @@ impl Knot {
         }
     }
 
-    /// Returns the knot at the end of a curved growth path, with integrals that were computed along the path.
+    /// Returns the breakpoint at the end of a curved growth path, with integrals that were computed along the path.
     ///
-    /// The path between the ends is not stored. Rest positions lie on the chord, and the force is proportional to ΔM, so that its
-    /// total is that of the path.
+    /// The path between the ends is not stored. Rest positions lie on the chord, and the force is proportional to ΔM, so that the total
+    /// force equals the force of the path.
     // The integrals of the chord would be less accurate.
     pub(super) fn grow_by(&self, law: &Interface, to: Apex, shear: f64, square: f64) -> Self {
         let [reduced_force, reduced_energy] = law.profile().reduced_sums(to.d);

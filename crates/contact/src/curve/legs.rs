@@ -1,4 +1,4 @@
-//! Memory curve in a form that does not depend on the displacement: knot heights and slopes.
+//! Memory curve in a form that does not depend on the displacement: breakpoint heights and slopes.
 //!
 //! After gross slip this form has a single piece of slope ±κ.
 
@@ -10,10 +10,10 @@ use crate::{Apex, Interface};
 /// Relative tolerance at which a slope counts as ±κ, so that the piece was made by slip.
 const EDGE: f64 = 1e-9;
 
-/// Form of a memory curve: knot heights and slopes of its pieces.
+/// Form of a memory curve: breakpoint heights and slopes of its pieces.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Legs {
-    /// Heights of the knots between centre and apex, m, ascending.
+    /// Heights of the breakpoints between centre and apex, m, ascending.
     pub heights: Vec<f64>,
     /// Slopes dp/dh of all pieces from the centre outwards, one more than heights; empty for an open contact.
     pub slopes: Vec<f64>,

@@ -1,7 +1,7 @@
-//! Changes of the knot stack: growth of the contact, slip, and the limit of the number of knots.
+//! Changes of the breakpoint stack: growth of the contact, slip, and the limit of the number of breakpoints.
 //!
-//! A growing contact adds knots. Slip removes knots and adds a straight piece. A full stack removes the knots with the smallest
-//! effect ([`super::thinning`]).
+//! A growing contact adds breakpoints. Slip removes breakpoints and adds a straight piece. A full stack removes the breakpoints with the
+//! smallest effect ([`super::thinning`]).
 
 use super::Curve;
 use super::cut::Edge;
@@ -9,7 +9,7 @@ use super::front::Front;
 use super::sweep::{self, Told};
 use crate::{Apex, Interface};
 
-/// Range of slopes of the top piece at which all knots merged into it stay on it within rounding.
+/// Range of slopes of the top piece for which all breakpoints merged into this piece lie on it within rounding.
 ///
 /// Without this range, growth along a slightly curved path in many small steps would be straightened without limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,19 +18,19 @@ pub(super) struct SlopeRange {
     pub(super) high: f64,
 }
 
-// Merging keeps the number of knots small when a contact grows along a straight line in many steps.
+// Merging keeps the number of breakpoints small when a contact grows along a straight line in many steps.
 
 impl SlopeRange {
-    /// Nothing has been merged yet: any slope is possible.
+    /// Range before the first merge: every slope is possible.
     pub(super) const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
-    /// Merging is not allowed: the top piece is a curved growth path or no growth.
+    /// Range that forbids merging, for a top piece that is a curved growth path or was made by slip.
     pub(super) const NONE: Self = Self { low: f64::INFINITY, high: f64::NEG_INFINITY };
 }
 
-/// Largest deviation of a merged knot, in units of the last place of the larger of |u| and κd.
+/// Largest deviation of a merged breakpoint, in units of the last place of the larger of |u| and κd.
 const COLLINEAR_ULPS: f64 = 2.0;
 
-/// Largest number of knots that a move adds: the point of intersection or first touch, and the apex.
+/// Largest number of breakpoints that a move adds: the point of intersection or first touch, and the apex.
 pub(super) const KNOTS_PER_MOVE: usize = 2;
 
 impl Curve {

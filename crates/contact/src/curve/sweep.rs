@@ -22,7 +22,7 @@ pub(super) enum Told {
     BesidePower,
 }
 
-/// Returns the friction work of a straight path, J. `knots` is the old curve with at least one knot; it ends at `from`.
+/// Returns the friction work of a straight path, J. `knots` is the old curve with at least one breakpoint; it ends at `from`.
 pub(super) fn work(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f64 {
     let Some((sweep, edge, top)) = Sweep::of(law, knots, from, to) else { return 0.0 };
     let foot = edge.foot(law, knots, sweep.to);
@@ -35,7 +35,7 @@ pub(super) fn beside(law: &Interface, knots: &[Knot], from: Apex, to: Apex) -> f
     sweep.beside(knots, &edge)
 }
 
-/// Returns the friction work of a straight path within contact, J, for a known limit line and its first knot.
+/// Returns the friction work of a straight path within contact, J, for a known limit line and its first breakpoint.
 pub(super) fn slipped(
     law: &Interface,
     knots: &[Knot],
@@ -71,7 +71,7 @@ struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    /// Returns the path up to the opening of the contact, the limit line and the last knot; `None` if nothing slips.
+    /// Returns the path up to the opening of the contact, the limit line and the last breakpoint; `None` if nothing slips.
     fn of<'k>(law: &'a Interface, knots: &'k [Knot], from: Apex, to: Apex) -> Option<(Self, Edge, &'k Knot)> {
         let (rise, travel) = (to.d - from.d, to.u - from.u);
         let slope = law.stick_slope();
@@ -93,8 +93,8 @@ impl<'a> Sweep<'a> {
         Self { law, from, to, rise, travel, sense, level, curl: curl(law, [rise, travel], sense) }
     }
 
-    /// Returns the work of the shifted part, J. `top` is the last knot.
-    // The direct integral avoids the cancellation of work and energy change in small loops.
+    /// Returns the friction work on the shifted part of the memory curve, J. `top` is the last breakpoint.
+    // A direct integral avoids the cancellation of work and energy change in small loops.
     fn swept(&self, knots: &[Knot], top: &Knot, edge: &Edge, foot: &Knot) -> f64 {
         let mut lower = if edge.is_gross() { &knots[0] } else { foot };
         // The slip distance is 0 at the intersection. In gross slip the centre slips, too.
@@ -162,7 +162,7 @@ impl<'a> Sweep<'a> {
         self.staying(lower, &middle, drag) + self.leaving(&middle, upper)
     }
 
-    /// Returns the derivative of the slip distance with respect to height, on the piece that ends in a knot.
+    /// Returns the derivative of the slip distance with respect to height, on the piece that ends in a breakpoint.
     fn rate(&self, upper: &Knot) -> f64 {
         self.law.stick_slope() - self.sense * upper.slope
     }

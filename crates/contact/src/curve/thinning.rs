@@ -1,11 +1,11 @@
-//! Reduction of a full stack: a sixteenth of the knots is removed at once, those with the smallest effect.
+//! Reduction of a full stack: a sixteenth of the breakpoints is removed at once, those with the smallest effect.
 //!
-//! Removing a knot merges two pieces. The rest positions change by the triangle between the knot and the chord of its neighbours. Let
-//! the pieces have the rises r₁, r₂, increments ΔM₁, ΔM₂ and slopes k₁, k₂. The shear integral changes by at most
+//! Removing a breakpoint merges two pieces. The rest positions change by the triangle between the breakpoint and the chord of its
+//! neighbours. Let the pieces have the rises r₁, r₂, increments ΔM₁, ΔM₂ and slopes k₁, k₂. The shear integral changes by at most
 //!
 //! T = ∫|δp| dm = |k₂-k₁| |r₂ΔM₁ - r₁ΔM₂| / (r₁+r₂), in m².
 //!
-//! The bound holds after any later move, because a move never enlarges a difference of rest positions. The integrals of the knots
+//! The bound holds after any later move, because a move never enlarges a difference of rest positions. The integrals of the breakpoints
 //! above change accordingly. If both pieces belong to one growth path, the integrals were computed along the path and remain. The
 //! redistributed difference between path and chord is recorded as an error, too.
 
@@ -14,16 +14,16 @@ use super::stack::SlopeRange;
 use super::{Curve, Merged};
 use crate::{Apex, Interface};
 
-/// Fraction of the stack that is removed at once: one in 16 knots.
-// Removing several knots at once keeps the cost per added knot constant for any size of the stack.
+/// Fraction of the stack that is removed at once: one in 16 breakpoints.
+// Removing several breakpoints at once keeps the cost per added breakpoint constant for any size of the stack.
 const SHARE: usize = 16;
-/// Largest number of knots that is selected by insertion; a larger number is selected by a histogram of classes.
+/// Largest number of breakpoints that is selected by insertion; a larger number is selected by a histogram of classes.
 const FEW: usize = 8;
 /// Number of classes of triangles: one per exponent of a double.
 // A sort would have to allocate memory.
 const CLASSES: usize = 2048;
 
-/// Knots that may be removed: all of lower classes than `class`, and `of_class` of that class.
+/// Limit of the number of breakpoints to remove: all breakpoints of classes below `class`, and `of_class` breakpoints of the class `class`.
 struct Quota {
     class: usize,
     of_class: usize,
@@ -38,16 +38,16 @@ struct Joint {
 }
 
 impl Curve {
-    /// Removes a sixteenth of the knots, those with the smallest triangles to within a factor of two, and records the error.
+    /// Removes a sixteenth of the breakpoints, those with the smallest triangles to within a factor of two, and records the error.
     ///
-    /// Of two neighbouring knots only one is removed at a time.
-    // Removing the oldest knots instead would cause a much larger error, because they belong to the largest amplitudes.
+    /// Of two neighbouring breakpoints only one is removed at a time.
+    // Removing the oldest breakpoints instead would cause a much larger error, because they belong to the largest amplitudes.
     pub(super) fn thin(&mut self, law: &Interface) {
         let mut quota = self.quota();
         let (count, apex) = (self.knots.len(), self.apex);
         let Some(&first) = self.knots.first() else { return };
         let mut merged = self.merged;
-        // `below` is the old knot below knot `i`, and `kept` the number of knots kept so far.
+        // `below` is the old breakpoint below breakpoint `i`, and `kept` the number of breakpoints kept so far.
         let (mut below, mut kept, mut i) = (first, 1, 1);
         while i < count {
             let (base, old) = (self.knots[kept - 1], self.knots[i]);
@@ -71,7 +71,7 @@ impl Curve {
         self.merged = merged;
     }
 
-    /// Determines which knots to remove.
+    /// Determines which breakpoints to remove.
     fn quota(&self) -> Quota {
         let left = (self.capacity / SHARE).max(1);
         if left <= FEW {
@@ -93,7 +93,7 @@ impl Curve {
 }
 
 impl Curve {
-    /// Determines which knots to remove from a small stack, at most [`FEW`].
+    /// Determines which breakpoints to remove from a small stack, at most [`FEW`].
     // Insertion is faster than the histogram here.
     fn quota_of_few(&self, left: usize) -> Quota {
         let mut least = [CLASSES; FEW];
@@ -113,7 +113,7 @@ impl Curve {
 }
 
 impl Quota {
-    /// Returns whether a knot with this triangle is removed, and counts it.
+    /// Returns whether a breakpoint with an error triangle of this area is removed, and counts it if so.
     fn takes(&mut self, triangle: f64) -> bool {
         let class = class(triangle);
         let goes = self.left > 0 && (class < self.class || class == self.class && self.of_class > 0);
@@ -126,9 +126,9 @@ impl Quota {
 }
 
 impl Knot {
-    /// Returns the knot on a changed base: at the same height, with updated integrals.
+    /// Returns the breakpoint with integrals updated for a changed breakpoint below. The height remains.
     fn moved(&self, from: &Self, to: &Self) -> Self {
-        // If nothing has changed below, the knot stays identical to the last bit.
+        // If nothing has changed below, the breakpoint stays identical to the last bit.
         if from.shear == to.shear && from.square == to.square {
             return *self;
         }
@@ -175,7 +175,7 @@ impl Joint {
     }
 }
 
-/// Returns twice the area, m², by which the rest positions change if the middle one of three knots is removed.
+/// Returns twice the area, m², by which the rest positions change if the middle one of three breakpoints is removed.
 fn triangle(a: &Knot, b: &Knot, c: &Knot) -> f64 {
     ((c.slope - b.slope) * (b.h - a.h) * (c.h - b.h)).abs()
 }

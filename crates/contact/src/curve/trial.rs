@@ -69,7 +69,7 @@ impl Curve {
     }
 }
 
-/// Returns force and derivatives at the end of a straight path, for a curve of at least one knot.
+/// Returns force and derivatives at the end of a straight path, for a curve of at least one breakpoint.
 #[inline]
 fn respond(law: &Interface, knots: &[Knot], to: Apex) -> Response {
     let top = &knots[knots.len() - 1];

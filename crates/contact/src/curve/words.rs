@@ -7,7 +7,7 @@ use super::{Curve, Merged};
 use crate::words::{Words, push};
 use crate::{Apex, Interface};
 
-/// Number of words of a knot.
+/// Number of words of a breakpoint.
 const KNOT: usize = 7;
 
 impl Curve {
@@ -33,7 +33,7 @@ impl Curve {
         let merged = Merged { knots: words.tally()?, force: words.finite()?, energy: words.finite()? };
         let count = words.count(capacity)?;
         let knots = (0..count).map(|_| Knot::read(law, words)).collect::<Option<Vec<_>>>()?;
-        // A smaller capacity would leave too few knots for a merge.
+        // A smaller capacity would leave too few breakpoints for a merge.
         let roomy = capacity >= Self::LEAST_CAPACITY;
         let sense = [-1.0, 0.0, 1.0].contains(&front.sense);
         (roomy && sense && is_curve(&knots, apex)).then_some(Self {
@@ -47,9 +47,9 @@ impl Curve {
     }
 }
 
-/// Returns whether the knots form a valid curve at an apex.
+/// Returns whether the breakpoints form a valid curve at an apex.
 ///
-/// An open contact has no knots. Otherwise the heights ascend from 0, and the last knot is the apex.
+/// An open contact has no breakpoints. Otherwise the heights ascend from 0, and the last breakpoint is the apex.
 fn is_curve(knots: &[Knot], apex: Apex) -> bool {
     let [first, .., last] = knots else { return knots.is_empty() && apex.d <= 0.0 };
     apex.d > 0.0
@@ -64,7 +64,7 @@ impl Knot {
         words.push(u64::from(self.joined));
     }
 
-    /// Reads a knot. M and N are recomputed from the profile.
+    /// Reads a breakpoint. M and N are recomputed from the profile.
     fn read(law: &Interface, words: &mut Words<'_>) -> Option<Self> {
         let [h, p, slope, gain, shear, square] = [(); 6].map(|()| words.finite());
         let h = h?;

@@ -16,10 +16,10 @@ use crate::quadrature::kronrod;
 use crate::{Apex, Interface, Memory, Profile, Segment};
 use std::f64::consts::FRAC_2_PI;
 
-/// Error tolerance of the work at changing indentation, relative to that of the mean pressure over the full slip distance.
+/// Error tolerance of the work at changing indentation, relative to the work of the mean pressure over the full slip distance.
 // The error estimate compares rules of 7 and 15 points and is larger than the true error.
 const ACCURACY: f64 = 1e-7;
-/// Error tolerance if each pressure is itself a quadrature.
+/// Error tolerance for profiles whose pressure is itself computed by quadrature.
 const ACCURACY_BY_QUADRATURE: f64 = 1e-5;
 /// Largest number of bisections of the integral.
 const DEEPEST: u32 = 24;
@@ -32,7 +32,7 @@ pub struct FrictionMap {
     way: Vec<f64>,
 }
 
-/// Part of a straight path in which the limit line removes one piece of the old curve, or with gross slip.
+/// Part of a straight path: either gross slip, or the limit line removes one piece of the previous memory curve.
 struct Drag {
     /// Levels of the limit line at start and end, m.
     level: [f64; 2],
@@ -95,7 +95,7 @@ struct Old<'a> {
 }
 
 impl Old<'_> {
-    /// Returns the knots (h, p), m, from the centre to the edge.
+    /// Returns the breakpoints (h, p), m, from the centre to the edge.
     fn corners(&self) -> Vec<(f64, f64)> {
         let mut p = self.centre;
         let next = self.pieces.iter().map(|piece| {
@@ -220,7 +220,7 @@ impl Drag {
         (limit * work, way)
     }
 
-    /// Returns the part in which the radius is in contact; `None` if it never is.
+    /// Returns the part of the path in which the given radius is in contact; `None` if there is no such part.
     fn touching(&self, profile: &Profile, here: Rim) -> Option<Self> {
         let [from, to] = self.depth;
         // The fraction of the path at which the indentation equals the height g(r).

@@ -67,7 +67,7 @@ impl PowerField {
         self.exponent * h / x * self.moment(r, x)
     }
 
-    /// Returns the same integral between two radii above r, given as pairs (h, x). The result is finite for every r.
+    /// Returns ∫ g'/√(x²-r²) dx between two radii above r, given as pairs (h, x). The integral is finite for every r.
     #[inline]
     pub(super) fn slope_between(&self, low: (f64, f64), high: (f64, f64), r: f64) -> f64 {
         if r > 0.0 || self.exponent > 1.0 {
@@ -152,7 +152,7 @@ impl PowerField {
         let inside = MIDDLE / s;
         let share = |phi: f64| 1.0 - math::powf(math::sin(phi) / s, n);
         let outer = self.panels([from, to], share);
-        // Below it 1-(x/s)ⁿ = q [1-(2x)ⁿ] + 1-q with q = (1/2s)ⁿ.
+        // Below [`MIDDLE`], 1-(x/s)ⁿ = q [1-(2x)ⁿ] + 1-q with q = (1/2s)ⁿ.
         let q = math::powf(inside, n);
         FRAC_2_PI * (q * self.outside(MIDDLE) / FRAC_2_PI + from * (1.0 - q) + outer)
     }

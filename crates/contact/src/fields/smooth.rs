@@ -46,7 +46,7 @@ pub(super) fn slope_integral(profile: &Profile, x: f64, r: f64) -> Estimate {
     total
 }
 
-/// Returns the same integral between two radii above r; it is finite for every r.
+/// Returns ∫ g'(ξ)/√(ξ²-r²) dξ between two radii above r; the integral is finite for every r.
 pub(super) fn slope_between(profile: &Profile, [from, to]: [f64; 2], r: f64) -> Estimate {
     let inside = profile.borders().iter().copied().filter(|border| *border > from && *border < to);
     let ends: Vec<f64> = std::iter::once(from).chain(inside).chain([to]).collect();

@@ -1,7 +1,7 @@
-//! Profile as a sequence of panels, for tables of points and normal laws.
+//! Profile as a sequence of panels (cells of the interpolation), for tables of points and normal laws.
 //!
-//! In each panel, contact radius and height are cubic polynomials of one parameter. M = 2∫a dh and N = ∫M dh are then exact
-//! polynomials of the same parameter. Because m, M and N are consistent, energy balances close to rounding.
+//! In each panel, contact radius and height are cubic polynomials of one parameter. M = 2∫a dh and N = ∫M dh are then exact polynomials of
+//! the same parameter. Because m, M and N are consistent, the energy balance is satisfied to rounding.
 
 use super::Sums;
 use super::kind::{Kind, Peak};
@@ -26,11 +26,11 @@ pub(super) struct Chart {
     borders: Vec<f64>,
     /// Whether the radius jumps from one panel to the next.
     has_jumps: bool,
-    /// Shape in three dimensions, if there is one.
+    /// Shape in three dimensions; `None` for a normal law.
     outline: Option<Outline>,
 }
 
-/// Panel: polynomials of s in [0, 1], with coefficients from the lowest power on.
+/// Panel: cell of the interpolation, given by polynomials of s in [0, 1] with coefficients from the lowest power on.
 #[derive(Debug, Clone, PartialEq)]
 struct Panel {
     /// Contact radius a, m.
@@ -100,8 +100,8 @@ fn solve(c: &[f64; 4], wanted: f64) -> f64 {
 impl Chart {
     /// Creates the profile from at least one panel.
     ///
-    /// Each panel begins where the one before ends, the first at height 0. Heights increase and radii do not decrease. `borders` are
-    /// radii above 0 at which a quadrature must be split, m, ascending.
+    /// Each panel begins at the end of the previous panel; the first begins at height 0. Heights increase and radii do not decrease.
+    /// `borders` are radii above 0 at which a quadrature must be split, m, ascending.
     pub(super) fn new(ends: &[Ends], borders: Vec<f64>, outline: Option<Outline>) -> Self {
         let (mut force, mut energy) = (0.0, 0.0);
         let panel = |ends: &Ends| {
@@ -137,7 +137,7 @@ impl Chart {
         if d > reach * (1.0 + ROUNDING) { Err(ContactError::Beyond { d, reach }) } else { Ok(()) }
     }
 
-    /// Returns the panel of a height and the parameter in it; `None` beyond the last panel.
+    /// Returns the panel that contains a height, and the parameter s of the height; `None` beyond the last panel.
     fn at(&self, h: f64) -> Option<(&Panel, f64)> {
         if h >= self.reach {
             return None;
@@ -163,7 +163,7 @@ impl Chart {
         sum
     }
 
-    /// Returns the panel of a radius and the parameter in it; `None` beyond the last panel.
+    /// Returns the panel that contains a radius, and the parameter s of the radius; `None` beyond the last panel.
     fn of_radius(&self, a: f64) -> Option<(&Panel, f64)> {
         let panel = self.panels.get(self.ends.partition_point(|end| *end < a))?;
         Some((panel, solve(&panel.radius, a)))
@@ -175,7 +175,7 @@ impl Chart {
         self.panels.len()
     }
 
-    /// Returns the shape in three dimensions, if there is one.
+    /// Returns the shape in three dimensions; `None` for a normal law.
     pub(super) fn outline(&self) -> Option<&Outline> {
         self.outline.as_ref()
     }
@@ -200,7 +200,7 @@ impl Kind for Chart {
         }
     }
 
-    /// Searches the panel by bisection, and then solves in it with dM/ds = 2a dh/ds.
+    /// Finds the panel by bisection, then solves for s in this panel with dM/ds = 2a dh/ds.
     fn height_of_reduced_force(&self, force: f64) -> f64 {
         if force >= self.last.reduced_force {
             return self.reach + (force - self.last.reduced_force) / self.last.reduced_stiffness;

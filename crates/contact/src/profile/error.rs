@@ -62,7 +62,7 @@ pub enum ProfileError {
         /// Index of the point, from 0.
         index: usize,
     },
-    /// The gap f of a table decreases, or a normal force does not increase.
+    /// The gap f of a table decreases, or a normal force does not increase with the indentation.
     #[error("expected a value of point {index} of at least that of the point before it")]
     Fall {
         /// Index of the point, from 0.

@@ -8,7 +8,7 @@ use super::{Profile, ProfileError, Shape};
 
 /// Springs in order of height, with the integrals m, M and N at each.
 ///
-/// Between two heights M and N follow from the integrals at the lower one, by addition of positive terms, without cancellation.
+/// Between two heights, M and N follow from the integrals at the lower height by adding positive terms, without cancellation.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Foundation {
     /// Heights, m, ascending.
@@ -51,7 +51,7 @@ impl Sums {
         heights.iter().take_while(|height| height.is_finite()).zip(lengths).map(step).collect()
     }
 
-    /// Returns the integrals at a height larger by `rise` (m), below the next spring: M is linear and N quadratic.
+    /// Returns the integrals at a height that is `rise` (m) larger but below the next spring: M is linear and N quadratic.
     #[inline]
     pub(crate) fn at(self, rise: f64) -> Self {
         Self {
@@ -69,7 +69,7 @@ impl Sums {
         if count == 0 { Self::default() } else { sums[count - 1].at(h - heights[count - 1]) }
     }
 
-    /// Returns the height at which M > 0 (m²) is reached.
+    /// Returns the height at which the reduced force M > 0 (m²) is reached, m.
     pub(crate) fn height_of_reduced_force(sums: &[Self], heights: &[f64], reduced_force: f64) -> f64 {
         // Between two heights M is linear, so the inverse is a division. At the lowest height M is 0.
         let index = sums.partition_point(|sums| sums.reduced_force < reduced_force).max(1) - 1;
@@ -100,7 +100,7 @@ impl Compensated {
 impl Profile {
     /// Creates a profile from a list of springs: heights (m, at least 0, in any order) and the length of each (m).
     ///
-    /// A rough line g(x) can be given in this way. Only the distribution of its heights matters.
+    /// A rough line g(x) can be given in this way, because only the distribution of its heights matters.
     pub fn foundation(heights: &[f64], lengths: &[f64]) -> Result<Self, ProfileError> {
         Ok(Self { shape: Shape::Foundation(Foundation::new(heights, lengths)?) })
     }
@@ -221,7 +221,7 @@ impl Kind for Foundation {
     }
 }
 
-/// Returns the first error of a list.
+/// Returns the first error in a list of springs.
 fn check(heights: &[f64], lengths: &[f64]) -> Result<(), ProfileError> {
     if heights.len() != lengths.len() {
         return Err(ProfileError::Unpaired { heights: heights.len(), lengths: lengths.len() });

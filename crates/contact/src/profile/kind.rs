@@ -2,7 +2,7 @@
 
 use super::Foundation;
 
-/// One kind of profile. Heights h and radii a are above 0 here; [`super::Profile`] handles other arguments for all kinds.
+/// Interface of one kind of profile. Heights h and radii a are above 0 here; [`super::Profile`] handles other arguments for all kinds.
 pub(super) trait Kind {
     /// Returns the reduced stiffness m(h), m.
     fn reduced_stiffness(&self, h: f64) -> f64;
@@ -21,7 +21,7 @@ pub(super) trait Kind {
         0.0
     }
 
-    /// Returns g(a), m: the lowest height with the contact radius a; infinite if none has it.
+    /// Returns g(a), m: the lowest height with the contact radius a; infinite if no height has this radius.
     fn depth(&self, a: f64) -> f64;
 
     /// Returns dg/da; 0 where it is not defined.
@@ -56,7 +56,7 @@ pub(super) trait Kind {
         false
     }
 
-    /// Returns the exponent p of M ∝ hᵖ at small h: 1 if a width touches at once.
+    /// Returns the exponent p of M ∝ hᵖ at small h; 1 if a finite width touches at h = 0.
     fn first_power(&self) -> f64 {
         1.0
     }

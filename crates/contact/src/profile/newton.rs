@@ -1,4 +1,4 @@
-//! Numerical inverse of an increasing function: Newton's method for convex functions, and with a bracket for others.
+//! Numerical inverse of an increasing function, by Newton's method. For functions that are not convex, a bracket is used.
 
 /// Largest number of steps; usually three to six are needed.
 const STEPS: usize = 60;
@@ -27,7 +27,7 @@ pub(super) fn root(wanted: f64, start: f64, at: impl Fn(f64) -> (f64, f64)) -> f
     x
 }
 
-/// Returns the zero in [0, 1] of an increasing function; 0 or 1 if there is none in between.
+/// Returns the zero in [0, 1] of an increasing function; 0 or 1 if there is no zero in between.
 ///
 /// `at` returns value and slope. Newton's method is combined with bisection, which replaces steps that leave the bracket.
 #[inline]

@@ -10,8 +10,8 @@ use std::sync::Arc;
 impl Profile {
     /// Creates a profile with the normal law M(h) = F_N/E\* through points (h in m, M in m²).
     ///
-    /// The first point is (0, 0). Both coordinates increase, and the stiffness from point to point does not decrease. The profile
-    /// ends at the last point ([`Self::reach`]) and has no gap, because many shapes have the same normal law.
+    /// The first point is (0, 0). Both coordinates increase, and the secants between neighbouring points do not decrease. The profile ends
+    /// at the last point ([`Self::reach`]) and has no gap, because many shapes have the same normal law.
     ///
     /// # Errors
     ///
@@ -24,7 +24,7 @@ impl Profile {
             let (from, to) = (points[i].0, points[i + 1].0);
             let (low, high) = (stiffness[i], stiffness[i + 1]);
             if low < secant && secant < high {
-                // At the knot, the mean of both linear functions is the secant.
+                // At the breakpoint, the mean of both linear functions is the secant.
                 let bend = from + (to - from) * ((high - secant) / (high - low));
                 panels.push(straight([from, bend], [low, secant]));
                 panels.push(straight([bend, to], [secant, high]));
@@ -80,7 +80,7 @@ fn secants(points: &[(f64, f64)]) -> Result<Vec<f64>, ProfileError> {
     Ok(secants)
 }
 
-/// Largest relative difference of two secants that count as equal, so that the points lie on a straight line.
+/// Largest relative difference of two secants that are treated as equal, so that their points lie on a straight line.
 const ALIKE: f64 = 1e-9;
 
 /// Returns whether three points lie on a straight line, so that the stiffness must be the secant throughout.

@@ -1,7 +1,7 @@
 //! Gap f(r) through points, and its transform g(x) = |x|∫₀^|x| f′(r)/√(x²-r²) dr (4.20).
 //!
-//! Between two kinks f is a smooth sequence of cubics. Their slopes are those of a polynomial through five points, limited so that f
-//! does not decrease. Where the points are convex, each slope is between the secants on both sides. With r = x sinθ the transform is
+//! Between two kinks f is a smooth sequence of cubics. The slopes at the points are those of a polynomial through five points, limited so
+//! that f does not decrease. Where the points are convex, each slope is between the secants on both sides. With r = x sinθ the transform is
 //! ∫f′(x sinθ) dθ, which has a closed form for a cubic. The error of g is that of f′, of third order in the distance of the points.
 
 use super::ProfileError;
@@ -25,12 +25,12 @@ pub(super) struct Outline {
 // Three points are less accurate; seven are no better, because f is a cubic between the points.
 const STENCIL: usize = 5;
 
-/// Slope relative to the mean slope below which it counts as rounding.
+/// Slope, relative to the mean slope, below which a slope is treated as rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Relative change at which a tip or an edge counts as an artefact of the interpolation.
 ///
-/// The slope in the centre or its jump at a kink is compared with that from every second or every fourth point.
+/// The slope in the centre, or the jump of the slope at a kink, is compared with the value from every second or every fourth point.
 const FADES: f64 = 0.25;
 
 impl Outline {
@@ -61,7 +61,7 @@ impl Outline {
 
     /// Removes tips and edges that are artefacts of the interpolation.
     ///
-    /// A slope in the centre or a jump at a kink is an artefact if it is within rounding. A slope is also an artefact if every second
+    /// A slope in the centre or a jump at a kink is an artefact if its size is within rounding. A slope is also an artefact if every second
     /// or fourth point gives a much different value.
     // A remaining artefact would cause an unbounded pressure, although g has only a small error.
     fn smooth(&mut self, thinned: &[Option<&Self>; 2]) {
@@ -187,7 +187,7 @@ impl Outline {
         [x * mean, slope]
     }
 
-    /// Returns the estimated error of g at the points, m, from the comparison with every second point at third order.
+    /// Returns the estimated error of g at the points, m. The estimate compares all points with every second point at third order.
     pub(super) fn error(&self) -> f64 {
         self.error
     }
@@ -199,7 +199,7 @@ impl Outline {
     }
 }
 
-/// Returns the first error of a table.
+/// Returns the first error in a table of points.
 fn check(points: &[(f64, f64)]) -> Result<(), ProfileError> {
     if points.len() < 2 {
         return Err(ProfileError::Points(points.len()));

@@ -157,7 +157,7 @@ impl Kind for Powers {
         })
     }
 
-    /// Returns the exponent from the term with the lowest n, which is the largest near the axis.
+    /// Returns the exponent from the term with the lowest n, which is the largest term near the axis.
     fn first_power(&self) -> f64 {
         let lowest = self.terms.iter().fold(f64::INFINITY, |lowest, term| lowest.min(term.exponent));
         1.0 + lowest.recip()

@@ -2,7 +2,7 @@
 
 use super::{Profile, Shape, sphere};
 
-/// Exponents with such a form.
+/// Exponents of power laws whose energy has this form.
 const ROOTS: [u32; 4] = [1, 2, 3, 4];
 /// Relative size of terms that are negligible in a double.
 const LAST_PLACE: f64 = 1e-17;
@@ -24,7 +24,7 @@ pub struct RootSeries {
 }
 
 impl Profile {
-    /// Returns the series of N up to an indentation (m), exact to rounding; `None` if there is no such form.
+    /// Returns the series of N up to an indentation (m), exact to rounding; `None` if there is no such series.
     ///
     /// For a power law of exponent n, N = N(1 m) h^{2+1/n}. For the sphere, N = √R h^{5/2} Σ aₖ (h/R)ᵏ.
     pub fn root_series(&self, depth: f64) -> Option<RootSeries> {

@@ -11,7 +11,7 @@ const STEPS_PER_HEIGHT: usize = 4;
 /// List of springs with an index by height.
 ///
 /// The index divides the range of heights into equal intervals, four per spring. For typical surfaces an interval contains one or two
-/// heights; others need a binary search within an interval.
+/// heights; a binary search handles fuller intervals.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rough {
     foundation: Foundation,
@@ -31,13 +31,13 @@ struct Level {
 }
 
 impl Profile {
-    /// Largest number of heights of a rough line, that of [`SelfAffine`].
+    /// Largest number of heights of a rough line, equal to the limit of [`SelfAffine`].
     pub const MAX_HEIGHTS: usize = SelfAffine::MAX_POINTS;
 
     /// Creates a rough line from heights (m, measured outwards from the body) at equal distances `spacing` (m).
     ///
-    /// The highest point touches first. g at each point is its distance from the highest one. The line is that of the one-dimensional
-    /// profile; only the distribution of heights matters.
+    /// The highest point touches first. g at each point is its depth below the highest point. The line is the one-dimensional profile g(x),
+    /// so only the distribution of heights matters.
     ///
     /// # Errors
     ///

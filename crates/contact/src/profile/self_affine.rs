@@ -4,7 +4,7 @@
 //! q^{-(1+2H)} (Persson et al., J. Phys.: Condens. Matter 17, 2005, R1). The seed determines the phases φₖ. The line is scaled to the
 //! given rms height.
 //!
-//! All operations round alike on every machine, so the line is the same everywhere.
+//! All operations round alike on every machine, so the generated line is the same on all platforms.
 
 use thiserror::Error;
 
@@ -19,7 +19,7 @@ pub struct SelfAffine {
     pub longest: f64,
     /// Shortest wavelength, m, at most the longest one and at least twice the distance of the points.
     pub shortest: f64,
-    /// Length L of the line, m, after which it repeats.
+    /// Length L of the line, m; the line is periodic with this length.
     pub length: f64,
     /// Number of points, a power of two from 4 to [`Self::MAX_POINTS`].
     pub points: usize,
@@ -39,7 +39,7 @@ pub enum RoughnessError {
     /// The length is not above 0 or not finite, m.
     #[error("expected a length above 0 m, got {0}")]
     Length(f64),
-    /// The number of points is no power of two within its range.
+    /// The number of points is not a power of two, or is out of its range.
     #[error("expected a power of two between 4 and {max} points, got {0}", max = SelfAffine::MAX_POINTS)]
     Points(usize),
     /// The longest wavelength exceeds the length, m.
@@ -167,7 +167,7 @@ impl Random {
 
 /// Returns cosines and sines of the first half of n equal parts of a circle, n a power of two from 4.
 ///
-/// Angles are halved by square roots.
+/// The angles are obtained by repeated halving with square roots.
 fn directions(n: usize) -> Vec<[f64; 2]> {
     let half = n / 2;
     let mut table = vec![[0.0_f64; 2]; half + 1];

@@ -7,7 +7,7 @@
 //! M is (4.26) for the sphere. N follows from N = ∫₀ᵃ(h-g)²dx by integration by parts. Both formulas have cancellation at small s.
 //! For small η a power series of the inverse of η = s artanh s is used, whose integrals have no cancellation.
 //!
-//! For s → 0 the results are those of the paraboloid: m = 2√(Rh), M = (4/3)√R h^{3/2}.
+//! For s → 0 the results approach the paraboloid: m = 2√(Rh), M = (4/3)√R h^{3/2}.
 
 use super::error::positive;
 use super::kind::{Kind, Peak};
@@ -122,7 +122,7 @@ impl Profile {
     }
 }
 
-/// Returns the terms of N/R³ = η^{5/2} Σ aₖηᵏ up to η that exceed `last` times the first term; `None` beyond the series.
+/// Returns the terms of N/R³ = η^{5/2} Σ aₖηᵏ that exceed `last` times the first term; `None` for η beyond the range of the series.
 pub(super) fn energy_terms(eta: f64, last: f64) -> Option<&'static [f64]> {
     let counts = |k: &usize| (VOLUME[*k] * eta.powi(*k as i32)).abs() > last * VOLUME[0];
     let count = 1 + (1..TERMS).rev().find(counts).unwrap_or(0);

@@ -5,7 +5,7 @@ use super::outline::Outline;
 use super::{Profile, ProfileError, Shape};
 use std::sync::Arc;
 
-/// Largest error of a panel, relative to g at the last point. The error of the points themselves is the limit if it is larger.
+/// Largest error of a panel, relative to g at the last point. A larger error of the points themselves replaces this limit.
 // The value is the error of 200 points of a sphere. For noisy points it would need many panels per cell.
 const TOLERANCE: f64 = 1e-10;
 
@@ -80,7 +80,7 @@ fn panels(outline: &Outline) -> Result<Vec<Ends>, ProfileError> {
         if to.height <= last {
             return Err(ProfileError::NotRising { index: cell + 1, radius: pair[1] });
         }
-        // The panel begins with the height at which the one before ended, which may differ in the last digit.
+        // The panel begins with the end height of the previous panel, which may differ in the last digit.
         stretch.fill(At { height: last, ..from }, to, HALVINGS, &mut panels);
         last = to.height;
     }
@@ -128,7 +128,7 @@ impl Stretch<'_> {
         }
     }
 
-    /// Adds one panel, or the panels of both halves if the error in its middle is too large.
+    /// Adds one panel. If the error in the middle of the panel is too large, adds the panels of both halves instead.
     fn fill(&self, from: At, to: At, halvings: u32, panels: &mut Vec<Ends>) {
         let ends = self.ends(from, to);
         let middle = self.at(0.5 * (from.w + to.w));

@@ -43,7 +43,7 @@ fn force(place: &Place) -> f64 {
 }
 
 impl TippedParaboloid {
-    /// Returns the position with g = h, for h beyond the cone. The paraboloid of the same h is an upper bound, because w + bψ ≥ x.
+    /// Returns the position x with g(x) = h, for h beyond the cone. The paraboloid of the same h is an upper bound, because w + bψ ≥ x.
     fn place(&self, h: f64) -> Place {
         let [b] = self.border;
         let wanted = self.radius * h;

@@ -37,7 +37,7 @@ impl Profile {
 }
 
 impl TruncatedCone {
-    /// Returns the position with g = h > 0. x φ is about w for small w and about (π/2)w - b for large w.
+    /// Returns the position x with g(x) = h > 0. x φ is about w for small w and about (π/2)w - b for large w.
     fn place(&self, h: f64) -> Place {
         let [b] = self.border;
         let wanted = h / self.slope;

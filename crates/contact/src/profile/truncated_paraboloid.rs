@@ -6,7 +6,7 @@
 //! * M = 2w(2w²+3b²)/(3R),
 //! * N = (2/3R²)(x-b)[(4/5)(x⁴+x³b+x²b²+xb³) - b⁴/5].
 //!
-//! For b → 0 these are the functions of the paraboloid, at small h those of a flat punch.
+//! For b → 0 the functions approach the paraboloid, at small h a flat punch.
 
 use super::angle::Place;
 use super::error::positive;

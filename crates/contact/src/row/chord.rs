@@ -18,9 +18,9 @@ pub(super) struct Chord {
     slope: f64,
     /// Change κΔd of the friction limit along the path.
     growth: f64,
-    /// Fraction of the path per slip distance of a spring that slips forward, 1/(Δu-κΔd); 0 if none can.
+    /// Fraction of the path per slip distance of a spring that slips forward, 1/(Δu-κΔd); 0 if no spring can.
     forward: f64,
-    /// Fraction of the path per slip distance of a spring that slips backward, 1/|Δu+κΔd|; 0 if none can.
+    /// Fraction of the path per slip distance of a spring that slips backward, 1/|Δu+κΔd|; 0 if no spring can.
     backward: f64,
 }
 

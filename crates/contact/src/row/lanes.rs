@@ -1,7 +1,7 @@
 //! Sums over the springs of a row, in eight parallel lanes.
 //!
-//! Spring i always belongs to lane i mod 8, and the lanes are added in a fixed order. Equal springs therefore give equal bits. The
-//! compiler vectorizes each loop over lanes. Springs in contact are always the first ones, so every sum covers a contiguous range.
+//! Spring i always belongs to lane i mod 8, and the lanes are added in a fixed order. Equal springs therefore give equal bits. The compiler
+//! vectorizes each loop over lanes. Springs in contact are always the first springs, so every sum covers a contiguous range.
 
 use super::chord::Chord;
 use super::springs::Cells;

@@ -1,20 +1,20 @@
 //! Linear force law of a row of springs between two changes of its springs.
 //!
-//! A change is first touch, lift-off, onset of slip or onset of stick of a spring. Between two changes the forces are linear in d and
-//! u for any path. A sticking spring with rest position p carries G\*l(u-p), a slipping one ±G\*lκ(d-h), and both press with
-//! E\*l(d-h). The laws continue smoothly beyond their end, as those of a [`Branch`](crate::Branch), so that an integrator can locate
-//! the end within a step.
+//! A change of a spring is first touch, lift-off, onset of slip or onset of stick. Between two changes the forces are linear in d and u for
+//! any path. A sticking spring with rest position p carries G\*l(u-p), a slipping one ±G\*lκ(d-h), and both carry the normal force
+//! E\*l(d-h). The laws continue smoothly beyond the next change, as the laws of a [`Branch`](crate::Branch), so that an integrator can
+//! locate the change within a step.
 //!
-//! Rest positions of neighbouring springs differ by at most κ times their difference in height. Slipping springs are therefore always
-//! the highest ones, all in one direction. The next spring to slip is the highest one that sticks.
+//! Rest positions of neighbouring springs differ by at most κ times their difference in height. Slipping springs are therefore always the
+//! highest springs, all in one direction. The next spring to slip is the highest one that sticks.
 
 use super::{Row, Springs, lanes};
 use crate::words::{Words, push};
 use crate::{Apex, Interface, Motion};
 
-/// Change at which the previous interval ended, if known.
+/// Change of a spring (event) at which the previous interval ended, if known.
 ///
-/// At that time the motion determines the change only within rounding, so the known change takes precedence.
+/// At the event, the motion determines the change only within rounding, so the known change takes precedence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Change {
     /// The change is unknown and is determined from the motion.
@@ -23,13 +23,13 @@ pub enum Change {
     Touches,
     /// The highest spring has lifted off.
     Parts,
-    /// The highest sticking spring has reached its friction limit in a direction, +1 or -1, unless it has just lifted off.
+    /// The highest sticking spring has reached its friction limit in a direction, +1 or -1, unless the spring has just lifted off.
     Slips(f64),
     /// The slipping springs begin to stick: σu̇ = κḋ for the slip direction σ.
     Sticks,
 }
 
-/// Tolerances within which a spring counts as being at its change, m.
+/// Tolerances within which a spring counts as having reached an event, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slack {
     /// Tolerance of indentations, m.
@@ -43,7 +43,7 @@ pub struct Slack {
 pub struct Lull {
     /// Apex at the start of the interval, to which all sums refer.
     from: Apex,
-    /// Direction in which springs slip; 0 if none does.
+    /// Direction in which springs slip; 0 if no spring slips.
     sense: f64,
     /// Slope κ of the friction limit.
     slope: f64,
@@ -59,9 +59,9 @@ pub struct Lull {
     press: f64,
     /// Length in contact, m.
     touch: f64,
-    /// Stretches left at the start until a spring slips forward and backward, m; infinite if none can.
+    /// Stretches left until a spring slips forward and backward, m, at the start of the interval; infinite if no spring can slip.
     left: [f64; 2],
-    /// Heights of the highest spring in contact and of the lowest one out of contact, m; infinite if there is none.
+    /// Heights of the highest spring in contact and of the lowest spring out of contact, m; infinite if there is no such spring.
     heights: [f64; 2],
 }
 
@@ -118,7 +118,7 @@ impl Row {
         }
     }
 
-    /// Returns the law without friction. The `lowest` springs never lift off.
+    /// Returns the linear law of the row without friction. The `lowest` springs never lift off.
     fn still(&self, springs: &Springs, law: &Interface, (lowest, touching): (usize, usize)) -> Lull {
         let sums = springs.sums_of(touching, self.apex.d);
         let top = if touching > lowest { springs.heights()[touching - 1] } else { f64::NEG_INFINITY };
@@ -164,7 +164,7 @@ impl Lull {
         self.touch
     }
 
-    /// Returns the direction in which springs slip, +1 or -1; 0 if none does.
+    /// Returns the direction in which springs slip, +1 or -1; 0 if no spring slips.
     #[inline]
     pub fn sense(&self) -> f64 {
         self.sense

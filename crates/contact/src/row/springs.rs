@@ -13,14 +13,13 @@ pub struct Springs {
     heights: Vec<f64>,
     /// Lengths of the distinct springs, m.
     lengths: Vec<f64>,
-    /// Half the total length of the distinct springs before each one, m: the radius that they cover. The last entry is that of all
-    /// springs.
+    /// Radius covered by the distinct springs before each spring, m: half of their total length. The last entry refers to all springs.
     radii: Vec<f64>,
     /// Integrals m, M and N of the row at the height of each distinct spring.
     sums: Vec<Sums>,
     /// Position x of every spring, m, ascending.
     positions: Vec<f64>,
-    /// Index of the distinct spring that belongs to every spring.
+    /// Index of the distinct spring for every position.
     ranks: Vec<usize>,
     /// Largest indentation of the row, m.
     reach: f64,
@@ -186,13 +185,13 @@ impl Springs {
         Sums::below(&self.sums, &self.heights, d)
     }
 
-    /// Returns m, M and N at an indentation for the first `count` distinct springs in contact, independently of d.
+    /// Returns m, M and N of the first `count` distinct springs at an indentation d, as if exactly these springs were in contact.
     pub(super) fn sums_of(&self, count: usize, d: f64) -> Sums {
         let count = count.min(self.sums.len());
         if count == 0 { Sums::default() } else { self.sums[count - 1].at(d - self.heights[count - 1]) }
     }
 
-    /// Returns the index of the distinct spring of every spring, in the order of [`Self::positions`].
+    /// Returns the index of the distinct spring for every position, in the order of [`Self::positions`].
     pub(super) fn ranks(&self) -> &[usize] {
         &self.ranks
     }
@@ -229,7 +228,7 @@ impl Springs {
         self.heights.partition_point(|&height| height < d)
     }
 
-    /// Returns the number of distinct springs with heights below d, where `near` is the probable result.
+    /// Returns the number of distinct springs with heights below d. The search begins at the probable result `near`.
     #[inline]
     pub(super) fn below_near(&self, d: f64, near: usize) -> usize {
         // In most moves no spring touches or lifts off, so two comparisons suffice.

@@ -1,4 +1,4 @@
-//! Contacts as components.
+//! Implementation of the trait [`Component`] for contacts.
 
 use super::{Contact, Guard, Mode, Motion};
 use crate::EventKind;
@@ -13,7 +13,7 @@ impl Component for Contact {
     type Segment = Segment;
     type Error = ContactError;
 
-    /// A contact that may grow in full stick has its force as a state, and integrals of elastic energy and friction work.
+    /// Returns force, elastic energy and friction work as components of the state, for a contact that may grow in full stick.
     fn states(&self) -> States {
         match self.slot {
             None => States::default(),
@@ -47,7 +47,7 @@ impl Component for Contact {
         memory.commit(&self.interface, *segment)
     }
 
-    /// Normal and tangential energy of one contact.
+    /// Returns the elastic energy of normal and tangential deformation of one contact.
     fn energy(&self, standing: Standing<'_, Mode, Memory>, at: &Moment<'_, Motion>) -> f64 {
         let normal = self.interface.normal_energy(at.inputs.d);
         normal + standing.memory.preview(&self.interface, at.inputs.apex()).elastic

@@ -1,30 +1,30 @@
 //! Tangential force of a contact under its present law.
 //!
-//! Contains elastic and friction force, viscous force of sticking springs, and the slopes of the states of a growing contact. All
-//! values are for one contact; the caller multiplies by the count. The memory is read only.
+//! The module computes elastic and friction force, viscous force of sticking springs, and the state derivatives of a contact that grows in
+//! full stick. All values are for one contact; the caller multiplies by the number of contacts. The slip memory is read only.
 
 use super::{Contact, Mode, Motion, Press};
 use stickslip_contact::{Apex, Branch, Dragged, Memory, Move};
 
-/// Time ahead at which the full force law determines the sticking springs, in radians of the contact's natural oscillation.
+/// Time step of the trial displacement that shows which springs stick, in radians of the contact's natural oscillation.
 const AHEAD: f64 = 1e-6;
 
-/// Slopes of the states and integrals of a growing contact.
+/// Time derivatives of the states and integrals of a contact that may grow in full stick.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct GrowthRates {
-    /// Ḟ = G\*m(d)u̇ in full stick, N/s.
+    /// Derivative of the tangential force, Ḟ = G\*m(d)u̇ in full stick, N/s.
     pub(crate) force: f64,
-    /// Ė = Fu̇ in full stick, W.
+    /// Derivative of the elastic energy, Ė = Fu̇ in full stick, W.
     pub(crate) elastic: f64,
-    /// Friction power at a slipping edge, W.
+    /// Friction power of the springs that slip at the contact edge, W.
     pub(crate) friction: f64,
 }
 
 impl Contact {
-    /// Returns F_x of one contact under its law, N. `grown` returns the force of a contact that grows in full stick, which is a state.
+    /// Returns the tangential force F_x of one contact under its present law, N. In full stick `grown` returns F_x.
     ///
-    /// A branch does not cover motions that cross the path of growth. The memory computes the force there, so that the law is
-    /// smooth up to the event that ends the step.
+    /// A branch of the slip memory is not valid where slip crosses a part of the memory that formed during growth of the contact. The slip
+    /// memory itself computes the force there, so that the law is smooth up to the event that ends the step.
     #[inline(always)]
     pub(crate) fn force(
         &self,
@@ -53,10 +53,10 @@ impl Contact {
         }
     }
 
-    /// Returns F_x of one contact under its law, N, with ∂F_x/∂u and ∂F_x/∂d, N/m, to solve for u.
+    /// Returns the tangential force F_x of one contact under its present law, N, with the derivatives ∂F_x/∂u and ∂F_x/∂d, N/m.
     ///
-    /// Beyond gross slip a branch continues with the stiffness of full stick. Every force then has a displacement, and the
-    /// beginning of gross slip is an ordinary event. `grown` as in [`Self::force`].
+    /// Beyond the beginning of gross slip the force is extrapolated with the stiffness of full stick. Every force then has a displacement,
+    /// and the beginning of gross slip is an ordinary event. In full stick the function `grown` returns the force.
     pub(crate) fn tangents(
         &self,
         (memory, mode): (&Memory, &Mode),
@@ -98,8 +98,8 @@ impl Contact {
         }
     }
 
-    /// Returns F_N of one contact under its law, N, and ∂F_N/∂d, N/m. Beyond lift-off the law of a pressed contact continues
-    /// linearly as a tensile force until the event.
+    /// Returns the normal force F_N of one contact under its present law, N, and ∂F_N/∂d, N/m. Beyond lift-off the law of a pressed contact
+    /// is extrapolated linearly as a tensile force until the event.
     pub(crate) fn press(&self, mode: &Mode, d: f64) -> [f64; 2] {
         let modulus = self.interface.normal_modulus();
         match mode {
@@ -126,20 +126,20 @@ impl Contact {
         }
     }
 
-    /// Returns the force by the full force law on the committed memory, N.
+    /// Returns the tangential force by the full force law for the stored slip memory, N.
     #[inline(never)]
     fn whole(&self, memory: &Memory, motion: &Motion) -> f64 {
         memory.force(&self.interface, motion.apex())
     }
 
-    /// Returns force and slip front where the edge crosses a path of growth, from the committed memory.
+    /// Returns tangential force and slip front where slip crosses a part of the slip memory that formed during growth of the contact.
     #[inline(never)]
     fn dragged(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> Dragged {
         let branching = memory.branching();
         branching.map(|it| it.dragged(&self.interface, branch.sense(), motion.apex())).unwrap_or_default()
     }
 
-    /// Returns the height of the slip front, m. Springs of smaller height stick, others slip.
+    /// Returns the height of the slip front in the profile, m. Springs below this height stick, others slip.
     pub(crate) fn front(&self, memory: &Memory, branch: &Branch, motion: &Motion) -> f64 {
         if branch.covers(motion.d, motion.u) {
             branch.front(motion.d, motion.u)
@@ -150,22 +150,22 @@ impl Contact {
 
     /// Returns the viscosity of the sticking springs, N s/m.
     ///
-    /// It is β times their stiffness: G\*m(d) in full stick, G\*m(h) below a slip front at height h, and 0 in gross slip or
-    /// without contact. β is the damping time of the contact, s.
+    /// The viscosity is β times the stiffness of the sticking springs, with the damping time β of the contact, s. The stiffness is G\*m(d)
+    /// in full stick, G\*m(h) below a slip front at height h, and 0 in gross slip or without contact.
     pub(crate) fn viscosity(&self, (memory, mode): (&Memory, &Mode), motion: &Motion) -> f64 {
         let stuck = match mode {
             Mode::Open => 0.0,
             Mode::Grow => self.interface.stick_stiffness(motion.d),
             // All springs slip: no damping.
             Mode::Slip(branch) if branch.is_gross() => 0.0,
-            // The front may lie above d where a shrinking contact has crossed the old curve, or below the centre. Limiting it
-            // avoids a kink in a step that oversteps an event.
+            // The front may lie above d where a shrinking contact has crossed its slip memory, or below the centre. Limiting it avoids a
+            // kink in a step beyond an event.
             Mode::Slip(branch) => {
                 self.interface.stick_stiffness(self.front(memory, branch, motion).max(Branch::CENTRE))
             }
             Mode::Lull { lull, .. } => lull.stiffness(&self.interface),
-            // The full force law determines sticking springs by a trial displacement; at the start of a step a trial of zero
-            // length would find all of them sticking.
+            // The full force law finds the sticking springs by a trial displacement; a trial of zero length would find all of them
+            // sticking.
             Mode::Whole { .. } => {
                 let ahead = |times: f64| {
                     let ahead = times * AHEAD / self.natural.frequency;
@@ -179,14 +179,14 @@ impl Contact {
         self.interface.viscosity(stuck)
     }
 
-    /// Returns the friction work of a chord that [`Self::growth_rates`] do not contain, J, where it leaves a path of growth.
+    /// Returns the friction work (J) that [`Self::growth_rates`] omits: of a straight path that erases slip memory formed during growth.
     pub(crate) fn beside_growth(&self, memory: &Memory, to: Apex) -> f64 {
         memory.branching().map_or(0.0, |branching| branching.beside_growth(&self.interface, to))
     }
 
-    /// Returns the slopes of the states of a growing contact.
+    /// Returns the time derivatives of the states of a contact that may grow in full stick.
     ///
-    /// In full stick they are G\*m(d)u̇ and F_x u̇, without friction. Along a branch only the friction power is nonzero.
+    /// In full stick the derivatives are G\*m(d)u̇ and F_x u̇, without friction. During slip only the friction power is nonzero.
     #[inline(never)]
     pub(crate) fn growth_rates(
         &self,

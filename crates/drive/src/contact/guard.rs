@@ -1,8 +1,8 @@
 //! Event functions (guards) of a contact, which are positive while its law holds.
 //!
-//! An event is the first time in a step at which an event function of the present law falls below zero by more than its deadband.
-//! The start of a step is excluded. The functions depend on the motion: s₊ = u̇ - κḋ, s₋ = -u̇ - κḋ, d, the rest of the piece of
-//! memory, and the distance from the old memory curve.
+//! An event is the first time in a step, after its start, at which an event function of the present law falls below zero by more than its
+//! deadband. The event functions are s₊ = u̇ - κḋ, s₋ = -u̇ - κḋ, the indentation d, and two distances: to the end of the present segment
+//! of slip memory, and to the older slip memory.
 //!
 //! | signs of u̇ - κḋ and u̇ + κḋ | law | event functions |
 //! | --- | --- | --- |
@@ -17,44 +17,44 @@ use stickslip_contact::{Change, Course, Memory};
 /// Event function that crosses zero where a law ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Guard {
-    /// σu̇ - κḋ: positive while the edge slips.
+    /// σu̇ - κḋ: positive while springs at the contact edge slip in the direction σ.
     Drag,
-    /// Length left of the piece of memory that is being erased.
+    /// Length left of the segment of slip memory that slip is erasing.
     Piece,
-    /// σ(u - p(d)): positive while the apex of a shrinking contact stays on its side of the old curve.
+    /// σ(u - p(d)): positive while the point (d, u) of a shrinking contact stays on its side of the slip memory p(d).
     Side,
-    /// κḋ - u̇, positive in full stick.
+    /// κḋ - u̇: positive in full stick, zero where forward slip begins.
     Lower,
-    /// κḋ + u̇, positive in full stick.
+    /// κḋ + u̇: positive in full stick, zero where backward slip begins.
     Upper,
     /// d: positive in contact.
     Contact,
     /// -d: positive while the contact is open.
     Gap,
-    /// σu̇ - κḋ of a row: positive while its slipping springs slip. This function and the next four detect changes of single
-    /// springs, which end a step without an event in the record.
+    /// σu̇ - κḋ of a row of springs: positive while its slipping springs slip. This and the next four event functions detect state changes
+    /// of single springs, which end a step without an event in the record.
     Edge,
-    /// Displacement left until a spring slips forward, m.
+    /// Displacement left until a spring of a row slips forward, m.
     Forward,
-    /// Displacement left until a spring slips backward, m.
+    /// Displacement left until a spring of a row slips backward, m.
     Backward,
-    /// Indentation left until a spring touches, m.
+    /// Indentation left until a spring of a row touches, m.
     Rise,
-    /// Indentation left until a spring separates, m.
+    /// Indentation left until a spring of a row separates, m.
     Sink,
 }
 
-/// Deadband for rounding, relative to natural displacement or velocity. Without it, rounding of a body at rest causes events.
+/// Deadband of event functions, relative to natural displacement or velocity; prevents events by rounding of a body at rest.
 const DEADBAND: f64 = 1e-13;
-/// Nearness: an event function this close to zero counts as zero, in units of the tolerance. The law is continuous at events, so
-/// the error is of second order.
+/// Bound below which an event function counts as zero, in units of the tolerance. The law is continuous at events, so the resulting error
+/// is of second order.
 pub(crate) const NEARNESS: f64 = 1e-3;
 
-/// Rounding of a velocity after a long step of a method of high order, in units of ε·position·ω. Stages weight rounded forces
-/// with large coefficients.
+/// Rounding of a velocity after a long step of a high-order method, in units of ε·position·ω. Such methods multiply rounded forces by large
+/// coefficients.
 const NOISE: f64 = 256.0;
 
-/// Returns deadband and nearness of an event function with a natural scale.
+/// Returns the deadband of an event function with a natural scale, and the bound below which its value counts as zero.
 pub(crate) fn bands(scale: f64, tolerance: f64) -> (f64, f64) {
     (DEADBAND * scale, (NEARNESS * tolerance).max(2.0 * DEADBAND) * scale)
 }
@@ -90,12 +90,12 @@ impl Guard {
         }
     }
 
-    /// Returns its value: velocities in m/s, lengths in m; ∞ if the law does not have this function.
+    /// Returns the value of the event function: velocities in m/s, lengths in m; ∞ if the law does not have this function.
     #[inline]
     pub(crate) fn value(self, contact: &Contact, (memory, mode): (&Memory, &Mode), at: &Motion) -> f64 {
         let slope = contact.interface.stick_slope();
         match (self, mode) {
-            // A row under the full force law needs reversals only; its springs determine stick by themselves.
+            // A row of springs under the full force law needs reversals only; its springs determine stick by themselves.
             (Self::Drag, Mode::Whole { sense }) if *sense == 0.0 => f64::INFINITY,
             (Self::Drag, Mode::Whole { sense } | Mode::Lull { sense, .. }) => sense * at.du,
             (Self::Edge, Mode::Lull { lull, .. }) if lull.sense() != 0.0 => {
@@ -118,7 +118,7 @@ impl Guard {
         }
     }
 
-    /// Returns [`Guard::Side`], σ(u - p(d)), m, and its rate, σ(u̇ - p'(d)ḋ), m/s; p is the old curve.
+    /// Returns the event function [`Guard::Side`], σ(u - p(d)), m, and its rate, σ(u̇ - p'(d)ḋ), m/s; p is the slip memory.
     #[inline]
     pub(crate) fn beside((memory, mode): (&Memory, &Mode), at: &Motion) -> [f64; 2] {
         let Mode::Slip(branch) = mode else { return [f64::INFINITY, 0.0] };
@@ -128,19 +128,19 @@ impl Guard {
         }
     }
 
-    /// Whether it is a velocity of a slipping or sticking edge.
+    /// Returns whether the event function is the velocity of a contact edge that slips or sticks.
     pub(crate) fn is_edge(self) -> bool {
         matches!(self, Self::Drag | Self::Lower | Self::Upper)
     }
 
-    /// Whether it depends on positions only, not on velocities.
+    /// Returns whether the event function depends on positions only, not on velocities.
     pub(crate) fn is_length(self) -> bool {
         !matches!(self, Self::Drag | Self::Lower | Self::Upper | Self::Edge)
     }
 
-    /// Returns its rate from the motion and the second derivatives (d̈, ü), for a contact that only bodies move.
+    /// Returns the time derivative of the event function from the motion and (d̈, ü), for a contact that only bodies move.
     ///
-    /// Rates of velocities are in m/s², rates of lengths in m/s. For [`Guard::Side`] it is the rate of [`Guard::Piece`].
+    /// Derivatives of velocities are in m/s², derivatives of lengths in m/s. For [`Guard::Side`] the result is that of [`Guard::Piece`].
     pub(crate) fn rate(self, contact: &Contact, mode: &Mode, at: &Motion, (bend, pull): (f64, f64)) -> f64 {
         let slope = contact.interface.stick_slope();
         match (self, mode) {
@@ -160,10 +160,10 @@ impl Guard {
         }
     }
 
-    /// Returns deadband and nearness. Both contain the rounding of displacements as large as `u` (m), and of the velocities that follow.
+    /// Returns the deadband and the bound that counts as zero, both with the rounding of displacements of size `u` (m) and of velocities.
     ///
-    /// With the natural scale s (u_cω, u_c or the depth) they are 1e-13 s + 4ε|u| and max(1e-3·tolerance, 2e-13)s + 8ε|u|. The
-    /// terms of u prevent infinite events of closing loops after long travel.
+    /// For the natural scale s (u_cω, u_c or the depth), the deadband is 1e-13 s + 4ε|u| and the bound max(1e-3·tolerance, 2e-13)s + 8ε|u|.
+    /// The terms of u prevent endless events of closing hysteresis loops after long travel.
     pub(crate) fn bands(self, contact: &Contact, tolerance: f64, u: f64) -> (f64, f64) {
         let rounding = 4.0 * f64::EPSILON * u.abs();
         let (unit, rounding) = match self {
@@ -176,17 +176,17 @@ impl Guard {
             // Travel along the slide does not affect the rounding of a depth.
             Self::Contact | Self::Gap | Self::Rise | Self::Sink => (contact.natural.depth, 0.0),
         };
-        // The laws on both sides of the old curve differ by (δ/u_c)²μF_N at a distance δ. The deadband is therefore the square
-        // root. A contact that shrinks along the line of its growth thus has no event. With contact damping the law jumps there,
-        // so the usual deadband holds.
+        // The laws on both sides of the slip memory differ by (δ/u_c)²μF_N at a distance δ, so the deadband is the square root. A contact
+        // that shrinks along the line of its growth thus has no event. With contact damping the law jumps there, so the usual deadband
+        // holds.
         let square = self == Self::Side && contact.interface.damping() == 0.0;
         let dead = if square { (NEARNESS * tolerance).sqrt() } else { DEADBAND };
         let near = (NEARNESS * tolerance).max(2.0 * DEADBAND);
         (dead * unit + rounding, near * unit + 2.0 * rounding)
     }
 
-    /// Returns the rounding of velocities of bodies at a distance `travel` (m) from their origins, m/s: [`NOISE`] ε·travel·ω. It
-    /// is 0 for event functions that are lengths.
+    /// Returns the rounding error of velocities of bodies at a distance `travel` (m) from their origins, m/s: [`NOISE`] ε·travel·ω. The
+    /// result is 0 for event functions that are lengths.
     pub(crate) fn noise(self, contact: &Contact, travel: f64) -> f64 {
         match self {
             Self::Drag | Self::Lower | Self::Upper => {
@@ -196,7 +196,7 @@ impl Guard {
         }
     }
 
-    /// Returns the change of a spring that its zero crossing means, for the event functions of a row.
+    /// Returns the change of state of a single spring at the zero crossing, for the event functions of a row of springs.
     pub(crate) fn change(self) -> Option<Change> {
         match self {
             Self::Edge => Some(Change::Sticks),
@@ -208,9 +208,9 @@ impl Guard {
         }
     }
 
-    /// Returns the event at its zero crossing and the motion of the contact after it.
+    /// Returns the kind of event at the zero crossing and the motion of the contact after the event.
     ///
-    /// When a slipping edge stops, a deepening contact changes to full stick; any other contact slips in the opposite sense.
+    /// When slip at the edge stops, a contact with growing indentation changes to full stick; any other contact reverses its slip.
     pub(crate) fn fired(self, contact: &Contact, mode: &Mode, at: &Motion) -> (EventKind, Course) {
         let slope = contact.interface.stick_slope();
         let turned = if mode.sense() > 0.0 { Course::Backward } else { Course::Forward };

@@ -1,7 +1,7 @@
 //! Laws (modes) of a contact.
 //!
-//! A mode is a smooth law, not a state of slip: under constant indentation partial slip and gross slip are the same branch. It
-//! changes at events only, follows from the committed memory, and stays smooth beyond the event that ends it.
+//! A mode is a smooth force law, not a state of slip: under constant indentation partial slip and gross slip have the same mode. A mode
+//! changes at events only, follows from the stored slip memory, and stays smooth beyond the event that ends it.
 
 use super::{Contact, Guard, Motion, Press};
 use stickslip_contact::{Branch, Change, Course, Lull, Memory, Slack, SpringRow};
@@ -11,9 +11,9 @@ use stickslip_contact::{Branch, Change, Course, Lull, Memory, Slack, SpringRow};
 pub(crate) enum Mode {
     /// No contact.
     Open,
-    /// Growth in full stick; the force is a state.
+    /// Growth of the contact area in full stick; the tangential force is a state.
     Grow,
-    /// Slip that spreads along one branch of the memory curve.
+    /// Slip that spreads along one branch of the slip-memory curve.
     Slip(Branch),
     /// Linear law of a row of springs until the next spring touches, separates, slips or sticks.
     Lull {
@@ -22,7 +22,7 @@ pub(crate) enum Mode {
         /// Sense of sliding.
         sense: f64,
     },
-    /// Full force law of the committed memory with its kinks, in one sense of sliding. Used without event location, and without friction.
+    /// Full force law of the slip memory with its kinks, in one sense of sliding; used without event location, and without friction.
     Whole {
         /// Sense of sliding.
         sense: f64,
@@ -39,7 +39,7 @@ impl Mode {
         }
     }
 
-    /// Shifts the origin of displacements back by `by` (m).
+    /// Shifts the origin of displacements by -`by` (m).
     pub(crate) fn shift(&mut self, by: f64) {
         match self {
             Self::Slip(branch) => branch.shift(by),
@@ -48,12 +48,12 @@ impl Mode {
         }
     }
 
-    /// Whether all springs slip.
+    /// Returns whether all springs slip.
     pub(crate) fn is_gross(&self) -> bool {
         matches!(self, Self::Slip(branch) if branch.is_gross())
     }
 
-    /// Whether the contact has no tangential stiffness left: open, or in gross slip.
+    /// Returns whether the contact has no tangential stiffness left: open, or in gross slip.
     pub(crate) fn has_given_way(&self, contact: &Contact) -> bool {
         match self {
             Self::Open => true,
@@ -63,14 +63,14 @@ impl Mode {
         }
     }
 
-    /// Whether some springs stick.
+    /// Returns whether some springs stick.
     pub(crate) fn holds(&self) -> bool {
         !self.is_gross() && *self != Self::Open
     }
 
-    /// Returns the law for a motion ("course") of the contact, from the committed memory.
+    /// Returns the law for a direction of motion (`course`) of the contact, from the stored slip memory.
     ///
-    /// `slack` (m): a piece of memory with less left counts as used up; see [`stickslip_contact::Curve::branch`].
+    /// A segment of slip memory with a remaining length of at most `slack` (m) counts as used up; see [`stickslip_contact::Curve::branch`].
     pub(crate) fn of(
         contact: &Contact,
         memory: &Memory,
@@ -96,8 +96,8 @@ impl Mode {
         }
     }
 
-    /// Returns the law of a row with the motion `at` after a change of its springs. Rounding may stop the motion short of the
-    /// change; a distance `left` (m) then counts as covered.
+    /// Returns the law of a row of springs with the motion `at` after a spring has changed its state. Rounding may stop the motion at a
+    /// distance `left` (m) before the change; this distance then counts as covered.
     pub(crate) fn lull(
         &self,
         contact: &Contact,

@@ -1,10 +1,10 @@
-//! Positions of balanced (massless) coordinates, from the balance of forces.
+//! Positions of quasi-static (massless, "balanced") coordinates, from the balance of forces.
 //!
-//! k q + Σ a F(a q + rest) = P. The branch of a single contact is inverted in closed form; otherwise bracketed Newton iterations
-//! reach rounding. Every F continues beyond the event that ends its law and increases with q, so the position is unique. Rates
-//! follow from the differentiated balance.
+//! The balance is k q + Σ a F(a q + rest) = P. For a single contact it is solved in closed form; otherwise bracketed Newton iterations
+//! reach rounding. Every contact force F continues beyond the event that ends its law and increases with q, so the solution is unique.
+//! Rates follow from the differentiated balance.
 //!
-//! Along x the depths of the contacts are known, because normal forces do not depend on x.
+//! Along x the indentations of the contacts are known, because normal forces do not depend on x.
 
 mod books;
 
@@ -16,32 +16,32 @@ use crate::scene::Axis;
 
 /// Largest number of iterations for one position.
 const STEPS: u32 = 200;
-/// Iterations after which bisection replaces Newton's method, which may cycle between the kinks of a row of springs.
+/// Number of iterations after which bisection replaces Newton's method, which may cycle between the kinks of a row of springs.
 const NEWTON: u32 = 40;
-/// Largest search distance, in natural lengths; beyond it nothing holds.
+/// Largest search distance, in natural lengths; if there is no balance up to there, no force holds the body.
 const FARTHEST: f64 = 1e15;
 
-/// Time step of numerical differentiation: fraction of the time to the end of a law, and relative minimum.
+/// Time step of numerical differentiation as a fraction of the time to the end of a law, and its relative minimum.
 const NEAR: f64 = 1e-3;
 const NOISE: f64 = 1e-13;
 
-/// A moment with type-erased access to components.
+/// Time and state components with type-erased access.
 // A fixed type limits the recursion of generic instances.
 pub(crate) type Instant<'a> = Components<&'a dyn Fn(usize) -> f64>;
 
-/// Contribution of a contact to the balance of a coordinate.
+/// Contribution of a contact to the balance of forces on a quasi-static coordinate.
 #[derive(Clone, Copy)]
 struct Share {
-    /// Force along the coordinate of all identical contacts, N.
+    /// Force of all identical contacts along the coordinate, N.
     force: f64,
-    /// Derivative of the force by the coordinate, N/m.
+    /// Derivative of the force with respect to the coordinate, N/m.
     stiffness: f64,
-    /// Rate of the force at constant coordinate, N/s.
+    /// Time derivative of the force at constant coordinate, N/s.
     drift: f64,
 }
 
 impl Equations<'_> {
-    /// Returns the position of balanced coordinate `b`, m, and its derivatives.
+    /// Returns the position of quasi-static coordinate `b`, m, with its time derivatives.
     #[inline(never)]
     pub(super) fn balanced(&self, b: usize, at: &impl View) -> Sample {
         let read = |i: usize| at.component(i);
@@ -69,8 +69,8 @@ impl Equations<'_> {
         Sample { value, rate: finite(rate), acceleration: finite(acceleration) }
     }
 
-    /// Returns the time step for the numerical derivative q̈, s. It is small compared with the time to gross slip or to the end
-    /// of the contact, where rates diverge.
+    /// Returns the time step for the numerical derivative q̈, s. The step is small compared with the time to gross slip or lift-off, where
+    /// rates diverge.
     fn moment(&self, balanced: &Balanced, (place, rate): (f64, f64), at: &Instant<'_>) -> f64 {
         let left = |(c, a): &(usize, f64)| {
             let along = a * place + self.rest(*c, balanced.axis, at).0;
@@ -88,7 +88,7 @@ impl Equations<'_> {
         self.model.moment.min((NEAR * left / rate.abs()).max(rounding))
     }
 
-    /// Returns the position of balanced coordinate `b`, m.
+    /// Returns the position of quasi-static coordinate `b`, m.
     pub(crate) fn place_of(&self, b: usize, at: &Instant<'_>) -> f64 {
         let balanced = &self.model.balanced[b];
         if let Some(slot) = balanced.slot.filter(|_| self.carries(balanced)) {
@@ -103,19 +103,19 @@ impl Equations<'_> {
         self.solve(balanced, pull, at)
     }
 
-    /// Whether the position of a coordinate is a state of the run. This is the case while a contact grows in full stick: its
-    /// force is a state and does not depend on u.
+    /// Returns whether the position of a coordinate is integrated as a state. This is necessary while a contact grows in full stick,
+    /// because its force is then a state and does not depend on u.
     pub(crate) fn carries(&self, balanced: &Balanced) -> bool {
         let grows = |(c, _): &(usize, f64)| self.grows(*c);
         self.layout.growing > 0 && balanced.contacts.iter().any(grows)
     }
 
-    /// Whether the force of contact `c` is a state at present.
+    /// Returns whether the tangential force of contact `c` is a state at present.
     fn grows(&self, c: usize) -> bool {
         self.modes[c] == Mode::Grow && self.model.contacts[c].slot.is_some()
     }
 
-    /// Returns the position at which a single contact balances a load, in closed form. None if its law has no inverse.
+    /// Returns the position at which a single contact balances a load, in closed form; `None` if the contact's law has no inverse.
     fn invert(&self, (c, a): (usize, f64), axis: Axis, pull: f64, at: &Instant<'_>) -> Option<f64> {
         let contact = &self.model.contacts[c];
         let force = pull / (a * contact.count);
@@ -127,7 +127,7 @@ impl Equations<'_> {
         let (d, _) = self.depth_of(contact, at);
         let law = &contact.interface;
         let u = branch.displacement(law, d, force, law.reduced_force(d))?;
-        // Where the edge crosses a path of growth, only the memory has the force.
+        // Where slip crosses memory that formed during growth, only the slip memory has the force.
         branch.covers(d, u).then_some(a * (u - rest))
     }
 
@@ -176,7 +176,7 @@ impl Equations<'_> {
         place
     }
 
-    /// Returns the imbalance of a position, N, and the stiffness there, N/m.
+    /// Returns the imbalance of forces at a position, N, and the stiffness there, N/m.
     fn excess(&self, balanced: &Balanced, pull: f64, place: f64, at: &Instant<'_>) -> [f64; 2] {
         let mut sum = [balanced.stiffness * place - pull, balanced.stiffness];
         for contact in &balanced.contacts {
@@ -186,7 +186,7 @@ impl Equations<'_> {
         sum
     }
 
-    /// Returns q̇ = (Ṗ - Σ drift)/(k + Σ stiffness) at a position.
+    /// Returns the rate q̇ = (Ṗ - Σ drift)/(k + Σ stiffness) of a coordinate at a position, m/s.
     fn rate_of(&self, b: usize, at: &Instant<'_>, place: f64) -> f64 {
         let balanced = &self.model.balanced[b];
         let mut pull = self.pull(&balanced.pull, at).rate;
@@ -199,7 +199,7 @@ impl Equations<'_> {
         pull / stiffness
     }
 
-    /// Returns the contribution of a contact to the balance of a coordinate at a position.
+    /// Returns the contribution of a contact to the balance of forces on a coordinate at a position.
     fn share(&self, (c, a): (usize, f64), axis: Axis, at: &Instant<'_>, place: f64) -> Share {
         let contact = &self.model.contacts[c];
         let (rest, drift) = self.rest(c, axis, at);
@@ -222,7 +222,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Returns u (axis x) or d (axis z) of a contact without balanced coordinates of that axis, and its rate.
+    /// Returns the part of u (axis x) or d (axis z) of a contact that does not depend on quasi-static coordinates, and its rate.
     fn rest(&self, c: usize, axis: Axis, at: &Instant<'_>) -> (f64, f64) {
         let contact = &self.model.contacts[c];
         let measure = match (axis, contact.coupling()) {
@@ -239,12 +239,12 @@ impl Equations<'_> {
         (measure.constant + value, rate)
     }
 
-    /// Returns u of a contact without balanced coordinates, m.
+    /// Returns the part of a contact's u that does not depend on quasi-static coordinates, m.
     pub(crate) fn rest_along(&self, c: usize, at: &Instant<'_>) -> f64 {
         self.rest(c, Axis::X, at).0
     }
 
-    /// Returns d (m) and ḋ (m/s) of a contact.
+    /// Returns indentation d (m) and rate ḋ (m/s) of a contact.
     fn depth_of(&self, contact: &Contact, at: &Instant<'_>) -> (f64, f64) {
         match contact.coupling() {
             Some(measure) => {
@@ -255,7 +255,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Returns the sum of loads and link forces on a balanced coordinate, N.
+    /// Returns the sum of loads and spring forces on a quasi-static coordinate, N.
     fn pull(&self, pull: &Pull, at: &Instant<'_>) -> Sample {
         let mut sum = Sample { value: pull.force, rate: 0.0, acceleration: 0.0 };
         let mut add = |sample: Sample, a: f64| {
@@ -270,7 +270,7 @@ impl Equations<'_> {
         sum
     }
 
-    /// Returns the force of a link with its balanced ends at 0, N.
+    /// Returns the force of a spring or actuator whose quasi-static ends are at position 0, N.
     fn end_of(&self, link: &Link, at: &Instant<'_>) -> Sample {
         let mut force = self.stroke(link, at);
         force.value -= link.elongation.constant;

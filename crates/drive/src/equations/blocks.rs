@@ -1,8 +1,8 @@
 //! Inputs and outputs of blocks.
 //!
-//! A block reads waveforms, lengths and signals of other blocks. It has states in y, one output signal, and efforts along the
-//! lengths. Everything is computed on request; inputs and states of a block are on the stack, at most [`MOST_OF_A_BLOCK`] of
-//! each. Models with blocks are integrated by methods that evaluate all states.
+//! A block reads waveforms, lengths between bodies and signals of other blocks. A block has states in the state vector, one output signal,
+//! and efforts along the lengths. Inputs and states of a block are stored on the stack, at most [`MOST_OF_A_BLOCK`] of each. Models with
+//! blocks are integrated by methods that evaluate all states.
 
 use super::sum::{Sum, View};
 use super::{Components, Equations};
@@ -16,13 +16,13 @@ use arrayvec::ArrayVec;
 pub(crate) type Inputs = ArrayVec<Sample, MOST_OF_A_BLOCK>;
 
 impl Equations<'_> {
-    /// Returns a signal: a waveform, the output of a block, or a balanced coordinate.
+    /// Returns the value of a signal: a waveform, the output of a block, or a quasi-static coordinate.
     #[inline(always)]
     pub(crate) fn signal(&self, signal: usize, at: &impl View) -> Sample {
         if signal < self.pieces.len() { self.sample(signal, at.time()) } else { self.made(signal, at) }
     }
 
-    /// Returns the output of a block, or the position of a balanced coordinate.
+    /// Returns the output of a block, or the position of a quasi-static coordinate.
     ///
     /// Blocks read only signals with a smaller index, as the model check ensures, so the recursion ends.
     #[inline(never)]
@@ -34,7 +34,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Calls `ask` with block `k`, its law, memory, inputs and states.
+    /// Calls the function `ask` with block `k`, its law, memory, inputs and states.
     pub(crate) fn ask_block<R>(
         &self,
         k: usize,
@@ -48,7 +48,7 @@ impl Equations<'_> {
         ask(wired.block(), self.blocks[k].standing(), &moment)
     }
 
-    /// Returns the inputs of a block. The model check limits their number.
+    /// Returns the inputs of a block. The checks of the model limit the number of inputs.
     pub(crate) fn block_inputs(&self, wired: &Wired, at: &impl View) -> Inputs {
         let read = |wire: &Wire| match wire {
             Wire::Signal(signal) => self.signal(*signal, at),
@@ -68,18 +68,18 @@ impl Equations<'_> {
         (from..from + wired.count()).map(|i| at.component(i)).collect()
     }
 
-    /// Returns an event function of block `k` at time t (s); `y` returns a component of the state.
+    /// Returns the value of an event function of block `k` at time t (s); `y` returns a component of the state.
     pub(crate) fn block_guard(&self, k: usize, guard: usize, t: f64, y: impl Fn(usize) -> f64) -> f64 {
         self.ask_block(k, &Components { t, y }, |block, standing, at| block.guard(guard, standing, at))
     }
 
-    /// Returns event and law after a zero crossing of an event function of block `k`.
+    /// Returns the kind of event and the new law after a zero crossing of an event function of block `k`.
     pub(crate) fn block_next(&self, k: usize, guard: usize, state: &State) -> (EventKind, usize) {
         let at = Components { t: state.t, y: |i: usize| state.y[i] };
         self.ask_block(k, &at, |block, standing, at| block.next(guard, standing, at))
     }
 
-    /// Returns event and law of block `k` where its law is chosen anew.
+    /// Returns the kind of event and the new law if block `k` changes its law at a jump of an input rate.
     pub(crate) fn block_turn(&self, k: usize, state: &State) -> Option<(EventKind, usize)> {
         let at = Components { t: state.t, y: |i: usize| state.y[i] };
         self.ask_block(k, &at, |block, standing, at| block.turn(standing, at))
@@ -93,7 +93,7 @@ impl Equations<'_> {
         states
     }
 
-    /// Returns the stored energy of block `k`, J, and appends its columns to the row.
+    /// Returns the stored energy of block `k`, J, and appends the values of the block's columns to the row.
     pub(crate) fn block_columns(
         &self,
         k: usize,
@@ -107,9 +107,9 @@ impl Equations<'_> {
         })
     }
 
-    /// Adds slopes of the states and forces of all blocks. `extra` begins after the velocities.
+    /// Writes the state derivatives of all blocks and adds their forces. `extra` is the part of the slopes after the velocities.
     ///
-    /// Supplied and dissipated power (W) are added to the sum. Efforts (N) act along lengths only.
+    /// The supplied and dissipated power (W) of blocks is added to the sum. Efforts (N) act along lengths between bodies only.
     #[inline(never)]
     pub(super) fn blocks(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         for (k, wired) in self.model.blocks.iter().enumerate().filter(|(_, wired)| wired.acts()) {

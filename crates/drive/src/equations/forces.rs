@@ -1,7 +1,7 @@
 //! Forces of contacts and links.
 //!
-//! Closed-form contacts, with F_x = F₀ + αM(h) under constant load, have a separate fast path. Both paths have the same law and
-//! sign: F_x opposes u, and the coordinates receive -count·F_x along u.
+//! Contacts under constant load whose force has the closed form F_x = F₀ + αM(h) have a separate fast path. Both paths have the same law
+//! and sign: F_x opposes u, and the coordinates receive -count·F_x along u.
 
 use super::sum::{Sum, View};
 use super::{Equations, Sample};
@@ -9,9 +9,9 @@ use crate::contact::{Mode, Motion, Press};
 use crate::model::{Link, Stroke};
 
 impl Equations<'_> {
-    /// Adds forces of all contacts and the slopes of their additional components.
+    /// Adds the forces of all contacts and the derivatives of their state components.
     ///
-    /// Without an interval every contact uses the general law. Open contacts and those never pressed are in neither list of an interval.
+    /// Without precomputed data of an interval, every contact uses the general law. Contacts that are open or never pressed are in no list.
     #[inline(always)]
     pub(super) fn contacts(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let Some(interval) = self.interval else {
@@ -29,10 +29,10 @@ impl Equations<'_> {
         }
     }
 
-    /// Adds the forces of a contact under any law, and the slopes of its additional components.
+    /// Adds the forces of a contact under any law, and the derivatives of its state components.
     ///
-    /// The normal force is -count·E\*M(d) along d, if bodies press the contact. The tangential force is -count·(F_x + βG\*m u̇)
-    /// along u; its second term is the damping of sticking springs.
+    /// The normal force is -count·E\*M(d) along d, if bodies press the contact. The tangential force is -count·(F_x + βG\*m u̇) along u,
+    /// where βG\*m u̇ is the damping of sticking springs.
     #[inline(never)]
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let contact = &self.model.contacts[c];
@@ -58,11 +58,11 @@ impl Equations<'_> {
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
-        // On a straight path the memory has all quantities; additional components are not used.
+        // On a straight path the slip memory gives all quantities; the state components are not used.
         let straight = contact.goes_straight(self.pieces);
         let slot = contact.slot.filter(|_| self.layout.growing > 0 && !straight);
         let mut force = match (&self.modes[c], slot) {
-            // Force and friction power share one slip front; the memory computes them where the branch does not apply.
+            // Force and friction power share one slip front; the slip memory computes both where the branch is not valid.
             (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
                 let [force, friction, _] = branch.drag(&contact.interface, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
@@ -87,9 +87,9 @@ impl Equations<'_> {
         sum.apply(&contact.u.free, u.driven, -contact.count * force);
     }
 
-    /// Writes the slopes of the additional components of a growing contact; `extra` begins after the velocities.
+    /// Writes the derivatives of force, elastic energy and friction work of a contact that may grow in full stick.
     ///
-    /// They are Ḟ in N/s, elastic and friction power in W, each of one contact.
+    /// The derivatives are Ḟ in N/s, elastic and friction power in W, for one contact. `extra` are the slopes after the velocities.
     fn grow(&self, (c, slot): (usize, usize), motion: &Motion, force: f64, extra: &mut [f64]) {
         let rates = self.model.contacts[c].growth_rates(self.law(c), motion, force);
         let from = 2 * self.layout.free;
@@ -98,9 +98,9 @@ impl Equations<'_> {
         extra[self.layout.friction(slot) - from] = rates.friction;
     }
 
-    /// Adds the forces of springs, dampers and actuators: k(s - e) + c(ṡ - ė) + preload along the elongation e, with the free stroke s.
+    /// Adds the forces k(s - e) + c(ṡ - ė) + preload of springs, dampers and actuators with elongation e and free stroke s.
     ///
-    /// The input power of the stroke is (k(s - e) + c(ṡ - ė))ṡ. The work of the preload is a potential energy.
+    /// An actuator's input power is (k(s - e) + c(ṡ - ė))ṡ. The work of the preload counts as potential energy.
     #[inline(never)]
     pub(super) fn links(&self, at: &impl View, sum: &mut Sum<'_>) {
         for link in &self.model.links {
@@ -114,7 +114,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Returns the free stroke of a link, m.
+    /// Returns the free stroke of a spring or actuator, m.
     pub(crate) fn stroke(&self, link: &Link, at: &impl View) -> Sample {
         match link.stroke {
             Stroke::Constant(value) => Sample { value, rate: 0.0, acceleration: 0.0 },

@@ -1,14 +1,14 @@
 //! Access to the state during an evaluation, and sums of forces.
 //!
-//! A [`View`] reads time and components, with or without velocities; code is compiled for each. A [`Sum`] collects forces and
-//! powers by the Jacobian of a measure.
+//! A [`View`] gives access to time and state components, with or without velocities; code is compiled for each case. A [`Sum`] adds up
+//! forces and powers by means of the Jacobian of the contact displacements.
 
 use crate::Model;
 use crate::model::Terms;
 
-/// Access to time and state for an evaluation.
+/// Access to time and state components for an evaluation.
 pub(crate) trait View {
-    /// Whether velocities of free coordinates are known. Otherwise rates contain prescribed motions only.
+    /// Whether velocities of free coordinates are known. Without them, rates contain prescribed motions only.
     const MOVES: bool;
     /// Returns the time, s.
     fn time(&self) -> f64;
@@ -54,7 +54,7 @@ impl View for Positions<'_> {
     }
 }
 
-/// Value of a measure at one time.
+/// Value and rates of a linear form of the coordinates at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reading {
     /// Value, m.
@@ -76,7 +76,7 @@ pub(super) struct Sum<'a> {
 }
 
 impl<'a> Sum<'a> {
-    /// Begins with gravity and constant loads; their work is a potential energy and not part of the powers.
+    /// Creates sums that contain gravity and constant loads; their work counts as potential energy, not as power.
     #[inline(always)]
     pub(super) fn new(model: &Model, dv: &'a mut [f64]) -> Self {
         for (dv, free) in dv.iter_mut().zip(&model.free) {
@@ -94,10 +94,10 @@ impl<'a> Sum<'a> {
         (self.input, self.damping)
     }
 
-    /// Adds a force along a measure. The source of the prescribed motion provides the opposite force, so the input power is
-    /// -force·driven.
+    /// Adds a force along a displacement that is a linear form of the coordinates. The opposite force acts on the source of the prescribed
+    /// motion, so the input power is -force·driven.
     ///
-    /// `driven` is the part of the measure's rate from prescribed motions, m/s.
+    /// `driven` is the part of the displacement's rate from prescribed motions, m/s.
     #[inline(always)]
     pub(super) fn apply(&mut self, free: &Terms, driven: f64, force: f64) {
         for &(i, a) in free {

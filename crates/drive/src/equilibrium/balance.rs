@@ -1,4 +1,4 @@
-//! Newton search for a balance of forces.
+//! Newton search for a static balance of forces.
 
 use super::statics::Statics;
 use super::{Settling, elimination};
@@ -12,30 +12,30 @@ use std::rc::Rc;
 const ITERATIONS: u32 = 400;
 /// Largest number of iterations without progress; further changes are rounding.
 const PATIENCE: u32 = 8;
-/// Pseudo-time above which an iteration is a Newton step; initial value near a known equilibrium.
+/// Pseudo-time above which an iteration equals a Newton step; also its initial value near a known equilibrium.
 pub(super) const NEWTON: f64 = 1e4;
 /// Largest number of halvings of a step.
 const HALVINGS: u32 = 40;
 /// Largest imbalance of an equilibrium, relative to the acting forces.
 const BALANCED: f64 = 1e-9;
-/// Typical number of forces on a coordinate, for their rounding.
+/// Typical number of forces on a coordinate, for an estimate of their rounding.
 const ROUNDED: f64 = 4.0;
-/// Step length that means that nothing holds the body, m or rad.
+/// Length of an iteration step above which the body counts as not held, m or rad.
 const LOST: f64 = 1e3;
 
-/// Number of cached positions; near rounding the search revisits the same ones.
+/// Number of cached positions; near the rounding limit the search revisits the same positions.
 const REMEMBERED: usize = 32;
 
-/// Positions of the free coordinates and the imbalance there.
+/// Positions of the free coordinates and the imbalance of forces there.
 #[derive(Debug)]
 pub(super) struct Balance {
     /// Components of the state.
     pub(super) y: Vec<f64>,
-    /// Remaining forces, N or N m.
+    /// Remaining imbalance of each coordinate, N or N m.
     pub(super) residual: DVector<f64>,
     /// Whether the forces are balanced at small angles.
     pub(super) holds: bool,
-    /// Pitch coordinate beyond small angles at which the forces are balanced.
+    /// Index of a pitch coordinate that is not small although the forces are balanced.
     pub(super) turned: Option<usize>,
     /// Largest imbalance relative to the acting forces.
     size: f64,
@@ -48,7 +48,7 @@ pub(super) struct Search<'a> {
     state: &'a State,
     /// Loads not yet applied, N or N m.
     missing: &'a DVector<f64>,
-    /// Coordinates that are held and need no balance.
+    /// Whether each coordinate is held fixed and needs no balance.
     held: &'a [bool],
     /// Cached positions, oldest first.
     seen: VecDeque<Rc<Balance>>,
@@ -57,7 +57,7 @@ pub(super) struct Search<'a> {
 }
 
 impl Balance {
-    /// Whether the imbalance of a coordinate exceeds rounding.
+    /// Returns whether the imbalance of a coordinate exceeds rounding.
     pub(super) fn is_off(&self, i: usize) -> bool {
         self.residual[i].abs() > BALANCED * self.statics.acting[i]
     }
@@ -69,7 +69,7 @@ impl Balance {
         off.max_by(|a, b| share(*a).total_cmp(&share(*b)))
     }
 
-    /// Whether a fraction of a step leads exactly to a position.
+    /// Returns whether a fraction of a step ends exactly at a cached position.
     fn leads_to(&self, place: &Self, (step, share): (&DVector<f64>, f64)) -> bool {
         // Coordinates come first; all other components stay.
         let moved = self.y.iter().zip(step).map(|(y, step)| y + share * step);
@@ -86,10 +86,10 @@ impl<'a> Search<'a> {
         Self { settling, state, missing, held, seen: VecDeque::with_capacity(REMEMBERED), looked: 0 }
     }
 
-    /// Solves forces = missing from y by Newton's method with a pseudo-time: (K + D/τ)·Δq = forces - missing. D is the natural
-    /// stiffness of each coordinate. For small τ a body moves along its load until it is held; for large τ the step is Newton's.
+    /// Solves forces = missing loads by Newton's method with a pseudo-time τ: (K + D/τ)·Δq = forces - missing loads, starting at y. D is
+    /// the natural stiffness of each coordinate. For small τ a body moves along its load; for large τ the step is Newton's.
     ///
-    /// Returns the best balance, or the last position if there is none. Near a known equilibrium the search may begin with τ = [`NEWTON`].
+    /// Returns the best balance found, or the last position if none was found. Near an equilibrium, begin with τ = [`NEWTON`].
     pub(super) fn from(mut self, y: &[f64], mut tau: f64) -> Rc<Balance> {
         let mut now = self.at(y.to_vec());
         let (mut best, mut idle) = (Rc::clone(&now), 0);
@@ -121,7 +121,7 @@ impl<'a> Search<'a> {
         if best.holds { best } else { now }
     }
 
-    /// Returns the step of an iteration. None if the matrix is singular.
+    /// Returns the displacement step of one iteration; `None` if the matrix is singular.
     fn step(&self, now: &Balance, tau: f64) -> Option<DVector<f64>> {
         let (mut matrix, mut residual) = (now.statics.stiffness.clone(), now.residual.clone());
         for (i, free) in self.settling.model.free.iter().enumerate() {
@@ -136,7 +136,7 @@ impl<'a> Search<'a> {
         elimination::solve(matrix, residual).filter(|step| step.iter().all(|x| x.is_finite()))
     }
 
-    /// Shortens a step by bisection to the position where no force acts along it. Without friction this minimises the energy
+    /// Shortens a step by bisection to the position where no force acts along the step. Without friction this position minimises the energy
     /// along the step.
     fn shorter(&mut self, now: &Rc<Balance>, whole: Rc<Balance>, step: &DVector<f64>) -> Rc<Balance> {
         let (mut near, mut far) = ((0.0, Rc::clone(now)), (1.0, whole));
@@ -172,7 +172,7 @@ impl<'a> Search<'a> {
         self.at(y)
     }
 
-    /// Returns the balance at a position, from the cache if possible.
+    /// Returns the balance of forces at a position, from the cache if possible.
     fn at(&mut self, y: Vec<f64>) -> Rc<Balance> {
         let same = |seen: &&Rc<Balance>| seen.y.iter().zip(&y).all(|(a, b)| a.to_bits() == b.to_bits());
         if let Some(seen) = self.seen.iter().rev().find(same) {
@@ -212,8 +212,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Returns the balance at a position: static forces minus missing loads. It holds if the imbalance of every released
-    /// coordinate is at most 1e-9 of the acting forces, plus rounding. For groups of coupled coordinates the sum must hold, too,
+    /// Returns the balance at a position: static forces minus missing loads. The position is an equilibrium if the imbalance of every
+    /// released coordinate is at most 1e-9 of the acting forces, plus rounding. Groups of coupled coordinates must also be balanced in sum,
     /// because rounding of large distances would hide a net force.
     fn left(&self, y: Vec<f64>) -> Balance {
         let statics = self.settling.statics(self.state, &y);
@@ -247,7 +247,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether the force along a step has reversed and exceeds half of its initial value. A Newton step may overshoot slightly.
+/// Returns whether the force along a step has reversed and exceeds half of its initial value. Newton steps may overshoot by less.
 fn overshoots(from: &Balance, to: &Balance, step: &DVector<f64>) -> bool {
     to.residual.dot(step) < -0.5 * from.residual.dot(step)
 }

@@ -1,7 +1,7 @@
-//! Positions of balanced (massless) coordinates at t = 0.
+//! Positions of quasi-static (massless, "balanced") coordinates at t = 0.
 //!
-//! Bodies are placed and contacts loaded as without loads. Then all loads of t = 0 act, and every contact moves on a straight
-//! path to its balance in zero time. The energy balance begins afterwards.
+//! At first, bodies and contacts are in the state that they would have without loads. Then all loads of t = 0 act, and every contact moves
+//! on a straight path to equilibrium in zero time. The energy balance begins afterwards.
 
 use crate::contact::Contact;
 use crate::equations::{Equations, Instant};
@@ -12,9 +12,9 @@ use crate::{Field, Part, SceneError, SceneFault};
 use stickslip_contact::Segment;
 
 impl Model {
-    /// Moves balanced bodies to their balance at t = 0.
+    /// Moves bodies with quasi-static coordinates to their equilibrium at t = 0.
     ///
-    /// Fails with [`SceneFault::Unbalanced`] if nothing balances the loads.
+    /// Fails with [`SceneFault::Unbalanced`] if no force balances the loads.
     pub(super) fn balance_first(&self, state: &mut State) -> Result<(), SceneError> {
         if self.balanced.is_empty() {
             return Ok(());
@@ -38,7 +38,7 @@ impl Model {
 }
 
 impl Equations<'_> {
-    /// Returns the first balanced coordinate whose load exceeds the limit of its contacts, with load and limit, N.
+    /// Returns the first quasi-static coordinate whose load exceeds the limit force of its contacts, with load and limit, N.
     pub(crate) fn overloaded(&self, t: f64, y: &dyn Fn(usize) -> f64) -> Option<(usize, [f64; 2])> {
         let at = Instant { t, y };
         (0..self.model.balanced.len()).find_map(|b| {

@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Returns the solution of A x = b. None if A is singular.
+/// Returns the solution of A x = b; `None` if the matrix A is singular.
 ///
-/// Uses Gaussian elimination with partial pivoting. Results are identical to `nalgebra`'s LU; zeros are skipped.
+/// The method is Gaussian elimination with partial pivoting that skips zeros; results are identical to LU decomposition by `nalgebra`.
 pub(super) fn solve(mut a: DMatrix<f64>, mut b: DVector<f64>) -> Option<DVector<f64>> {
     let n = b.len();
     let (mut rows, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
@@ -40,7 +40,7 @@ pub(super) fn solve(mut a: DMatrix<f64>, mut b: DVector<f64>) -> Option<DVector<
     Some(b)
 }
 
-/// Returns the row of the largest entry of column `k` on or below the diagonal, the first of equal ones.
+/// Returns the row with the largest entry of column `k` on or below the diagonal; the first of equal entries.
 fn largest(a: &DMatrix<f64>, k: usize) -> usize {
     let mut pivot = k;
     for i in k + 1..a.nrows() {

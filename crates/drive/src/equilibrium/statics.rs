@@ -1,4 +1,4 @@
-//! Static forces on the free coordinates and their derivatives.
+//! Static forces on the free coordinates and their derivatives (stiffness matrix).
 
 use super::Settling;
 use crate::contact::Contact;
@@ -13,18 +13,18 @@ use stickslip_contact::{Apex, Memory, Move};
 pub(super) struct Statics {
     /// Sum of the forces on each coordinate.
     pub(super) net: DVector<f64>,
-    /// Sum of their magnitudes with friction at its limit, the reference of an imbalance.
+    /// Sum of the magnitudes of the forces, with friction at its limit; the reference for an imbalance.
     pub(super) acting: DVector<f64>,
     /// Rounding of the forces.
     pub(super) noise: DVector<f64>,
-    /// Largest constant length in a measure, m.
+    /// Largest constant part of a displacement between bodies, m.
     constant: f64,
     /// Stiffness matrix -∂F/∂q.
     pub(super) stiffness: DMatrix<f64>,
 }
 
 impl Statics {
-    /// Adds a force along a measure; `size` is the magnitude for the reference.
+    /// Adds a force along a displacement between bodies; `size` is the magnitude that counts for the reference.
     fn push(&mut self, along: &Measure, force: f64, size: f64) {
         for &(i, a) in &along.free {
             self.net[i] += a * force;
@@ -32,7 +32,7 @@ impl Statics {
         }
     }
 
-    /// Adds a stiffness k: forces along one measure per displacement of another.
+    /// Adds a stiffness k: a force along one displacement per change of another displacement.
     fn stiffen(&mut self, along: &Measure, with: &Measure, k: f64, y: &[f64]) {
         let size: f64 = with.constant.abs() + with.free.iter().map(|&(j, b)| (b * y[j]).abs()).sum::<f64>();
         self.constant = self.constant.max(with.constant.abs());
@@ -51,10 +51,10 @@ impl Statics {
 }
 
 impl Settling<'_> {
-    /// Returns the static forces with the free coordinates at y and the contacts on straight paths from their present positions.
+    /// Returns the static forces for given positions y of the free coordinates, which the contacts reach on straight paths.
     ///
-    /// Contains loads, contacts (normal and tangential), links and waveforms at t = 0; nothing is committed. Stiffness is
-    /// positive for a force that opposes the displacement.
+    /// Loads, contact forces, links and waveforms are taken at t = 0; the slip memories are not changed. A stiffness is positive if its
+    /// force opposes the displacement.
     pub(super) fn statics(&self, state: &State, y: &[f64]) -> Statics {
         let (model, eq) = (self.model, self.model.equations(state));
         let n = model.free.len();
@@ -100,7 +100,7 @@ impl Settling<'_> {
         statics
     }
 
-    /// Returns the positions (d, u) of the contacts with the free coordinates at y.
+    /// Returns indentation d and displacement u of all contacts for positions y of the free coordinates.
     pub(super) fn apexes<'a>(&'a self, state: &'a State, y: &'a [f64]) -> impl Iterator<Item = Apex> + 'a {
         let eq = self.model.equations(state);
         self.model.contacts.iter().zip(&self.depths).map(move |(contact, depth)| {
@@ -111,19 +111,19 @@ impl Settling<'_> {
     }
 }
 
-/// Cached response of a contact at the end of a chord; valid while its memory and the end are unchanged.
+/// Cached force and stiffness of a contact at the end of a straight path; valid while slip memory and end point are unchanged.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Answer {
     to: Apex,
     tangents: Tangents,
     /// F_N, N.
     pressing: f64,
-    /// dF_N/dd, N/m; 0 if no body presses.
+    /// Normal stiffness dF_N/dd, N/m; 0 if no body presses the contact.
     stiffness: f64,
 }
 
 impl Answer {
-    /// No response: NaN never equals an end.
+    /// Empty cache entry: its end point is NaN, which never equals another one.
     pub(super) const NONE: Self = Self {
         to: Apex { d: f64::NAN, u: f64::NAN },
         tangents: Tangents { force: 0.0, along: 0.0, across: 0.0 },
@@ -142,18 +142,18 @@ impl Answer {
     }
 }
 
-/// F_x of one contact at the end of a chord (N), and its derivatives by the end (N/m).
+/// Tangential force F_x of one contact at the end of a straight path (N), and its derivatives with respect to the end point (N/m).
 #[derive(Debug, Clone, Copy, Default)]
 struct Tangents {
     force: f64,
-    /// Derivative by u at constant d.
+    /// Derivative with respect to u at constant d.
     along: f64,
-    /// Derivative by d at constant u.
+    /// Derivative with respect to d at constant u.
     across: f64,
 }
 
-/// Returns force and derivatives for a chord. A chord that grows in stick adds G\*(Δu/Δd)ΔM. Its derivatives by the end differ
-/// from those of continuing from the end.
+/// Returns the tangential force at the end of a straight path (chord), with derivatives. A chord with growing d in full stick adds the
+/// force G\*(Δu/Δd)ΔM. Its derivatives with respect to the chord's end differ from the stiffness beyond the end.
 fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     if contact.inert {
         return Tangents::default();
@@ -171,5 +171,5 @@ fn tangents(contact: &Contact, memory: &Memory, to: Apex) -> Tangents {
     Tangents { force: response.force, along, across }
 }
 
-/// Relative growth below which a chord counts as its end.
+/// Relative growth of d below which a straight path counts as its end point.
 const SHORT: f64 = 1e-6;

@@ -5,7 +5,7 @@ use crate::scene::{Axis, SMALL_ANGLE};
 use stickslip_contact::{ContactError, FirstLoadingError, SpringsError};
 use thiserror::Error;
 
-/// Fault of a field. [`SceneFault::advice`] suggests a remedy.
+/// Fault of a field of the input. [`SceneFault::advice`] suggests a remedy.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SceneFault {
     /// The number is infinite or NaN.
@@ -20,43 +20,43 @@ pub enum SceneFault {
     /// The number of contacts is zero.
     #[error("expected at least 1 contact, got 0")]
     NoContact,
-    /// A side or a load refers to a body that does not exist.
+    /// A side of a contact, or a load, refers to a body that does not exist.
     #[error("there is no body with index {0}")]
     NoBody(usize),
-    /// The waveform does not exist.
+    /// The input refers to a waveform that does not exist.
     #[error("there is no waveform with index {0}")]
     NoWaveform(usize),
-    /// Both sides are the same body.
+    /// Both sides of a contact or spring are the same body.
     #[error("expected two different bodies")]
     OneBody,
     /// A free coordinate has no mass or moment of inertia.
     #[error("{}", no_inertia(*.0))]
     NoInertia(Axis),
-    /// No force acts on a free z or pitch.
+    /// No force acts on a free z or pitch coordinate.
     #[error("no part holds {}, which is free", .0.key())]
     Unheld(Axis),
-    /// A pitch coordinate is balanced.
+    /// A pitch coordinate is quasi-static ("balanced"), which only x and z can be.
     #[error("a pitch cannot be balanced, only x and z can")]
     BalancedPitch,
-    /// A body with a balanced coordinate has a mass.
+    /// A body with a quasi-static ("balanced") coordinate has a mass.
     #[error("{} is balanced, so the body takes no mass: forces alone determine its position", .0.key())]
     BalancedMass(Axis),
-    /// The model has both balanced and free coordinates.
+    /// The model has both quasi-static ("balanced") and free coordinates.
     #[error("{} is balanced, but other coordinates of the model are free", .0.key())]
     BalancedBesideFree(Axis),
-    /// The model has both balanced coordinates and blocks.
+    /// The model has both quasi-static ("balanced") coordinates and blocks.
     #[error("{} is balanced, but stacks or drivers of the model have states of their own", .0.key())]
     BalancedBesideBlock(Axis),
-    /// A force depends on the velocity of a balanced coordinate.
+    /// A force depends on the velocity of a quasi-static ("balanced") coordinate.
     #[error("a damper cannot act on a balanced coordinate: its position would depend on its velocity")]
     BalancedDamper,
-    /// Two balanced coordinates with contacts act on each other.
+    /// Two quasi-static ("balanced") coordinates with contacts act on each other.
     #[error("two balanced bodies with contacts act on each other")]
     BalancedTogether,
-    /// No force that depends on position acts on a balanced coordinate.
+    /// No force that depends on position acts on a quasi-static ("balanced") coordinate.
     #[error("no force balances {}: no contact with friction and no spring acts along it", .0.key())]
     Unbalanceable(Axis),
-    /// The load on a balanced coordinate at t = 0 exceeds the limit of its contacts.
+    /// The load on a quasi-static ("balanced") coordinate at t = 0 exceeds the limit of its contacts.
     #[error("no force balances {load:.3e} N {} at t = 0: the friction limit of the contacts is {limit:.3e} N", way(*.axis))]
     Unbalanced {
         /// Coordinate.
@@ -88,7 +88,7 @@ pub enum SceneFault {
         /// Length of the row, m.
         span: f64,
     },
-    /// The length of a damper jumps; its impulse is not defined.
+    /// The length of a damper jumps, so that its impulse is not defined.
     #[error("a damper cannot follow the jumps of waveform `{0}`")]
     DampedJump(String),
     /// The stepper cannot follow waveforms that jump.
@@ -121,10 +121,10 @@ pub enum SceneFault {
     /// A block acts on bodies in a model that starts in equilibrium.
     #[error("a model with a block between bodies cannot start in equilibrium")]
     BlockInEquilibrium,
-    /// A contact cannot follow its bodies into equilibrium.
+    /// A contact cannot follow the motion of its bodies into static equilibrium.
     #[error("in static equilibrium {0}")]
     Settling(ContactError),
-    /// Nothing balances the loads at t = 0.
+    /// No static equilibrium balances the loads at t = 0.
     #[error(
         "`{body}` has no static equilibrium {}: {unbalanced:.3e} {} remain unbalanced{}",
         way(*.axis), unit(*.axis), if *.shared { ", including the forces of other bodies" } else { "" }
@@ -136,7 +136,7 @@ pub enum SceneFault {
         axis: Axis,
         /// Unbalanced force or moment, N or N m.
         unbalanced: f64,
-        /// Whether other bodies act along the same axis; the imbalance then includes their forces.
+        /// Whether other bodies act along the same axis, so that the imbalance includes their forces.
         shared: bool,
     },
     /// The equilibrium at t = 0 requires an angle that is not small.
@@ -152,12 +152,12 @@ pub enum SceneFault {
 }
 
 impl SceneFault {
-    /// Returns the error of this fault in a field of a part.
+    /// Returns the error that consists of this fault, a part and its field.
     pub(crate) fn of(self, part: Part, field: Field) -> SceneError {
         SceneError { part, field, fault: self }
     }
 
-    /// Returns a suggested remedy, if there is one.
+    /// Returns a text that suggests a remedy, if there is one.
     pub fn advice(&self) -> Option<String> {
         let advice = match self {
             Self::NoInertia(axis) => {
@@ -220,7 +220,7 @@ impl SceneFault {
         Some(advice.to_owned())
     }
 
-    /// Returns a suggested remedy for a fault of a balanced coordinate.
+    /// Returns a text that suggests a remedy for a fault of a quasi-static coordinate.
     fn advice_on_balance(&self) -> &'static str {
         match self {
             Self::BalancedPitch => "make pitch \"fixed\"",

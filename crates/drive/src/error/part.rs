@@ -101,17 +101,17 @@ pub enum Field {
     Duration,
     /// Interval of the rows of the record.
     Interval,
-    /// Relative change of a step that counts as steady.
+    /// Relative change of the step length below which the motion counts as steady.
     SteadyChange,
     /// Stepper.
     Stepper,
-    /// Tolerance of the plan's stepper.
+    /// Tolerance of the stepper of a run.
     Tolerance,
-    /// Step length of the plan's stepper.
+    /// Step length of the stepper of a run.
     Step,
-    /// Frame of the plan's stepper.
+    /// Frame length of a real-time stepper, s.
     Frame,
-    /// Accuracy of a frame.
+    /// Accuracy of a frame of a real-time stepper.
     FrameAccuracy,
 }
 

@@ -1,8 +1,8 @@
 //! Expected number of events of a run: corners are counted, events of contacts are estimated.
 //!
-//! A contact reverses with the free oscillations of its modes, which decay after each corner, and with its drive. Bodies in
-//! flight land once per flight. The number of events of each kind was counted on the examples. Estimates are within a factor of
-//! two there, and otherwise rough. They serve to predict the size of a table and the run time.
+//! A contact slips back and forth with the free oscillations of its normal modes, which decay after each corner, and with its drive. Bodies
+//! in flight land once per flight. The numbers of events per oscillation were counted on the examples. The estimates are within a factor of
+//! two there, and otherwise rough. The results serve to predict the size of a table and the run time.
 
 use super::Setup;
 use crate::equations::Equations;
@@ -12,34 +12,34 @@ use crate::{Linearised, NormalMode, Plan, Waveform};
 use std::f64::consts::TAU;
 use stickslip_stepper::System;
 
-/// Events of a contact per period of a free oscillation: two reversals and about one closed loop. If the motion of bodies presses
-/// it, full stick and renewed slip are added.
+/// Events of a contact per period of a free oscillation: two reversals and about one closed hysteresis loop. If moving bodies press the
+/// contact, full stick and renewed slip are added.
 const PER_RINGING: Pace = Pace { pressed: 3.0, coupled: 4.0 };
-/// Events of a contact per period of a smooth drive: two reversals, each with an end of gross slip or a closed loop. If the
-/// motion of bodies presses it, the number is doubled by growth or flight.
+/// Events of a contact per period of a smooth drive: two reversals, each with an end of gross slip or a closed loop. If moving bodies press
+/// the contact, growth of the contact or flight doubles the number.
 const PER_TURNS: Pace = Pace { pressed: 4.0, coupled: 8.0 };
 /// Events of a contact per landing: touch, slip, reversal, lift-off.
 const PER_LANDING: f64 = 4.0;
-/// Events of a free body per corner of a waveform, without oscillations: gross slip begins and ends.
+/// Events of a free body per corner of a waveform, without oscillations: beginning and end of gross slip.
 const PER_FLYBACK: f64 = 2.0;
 /// Number of time constants until a damped oscillation has decayed to 5 %.
 const DECAY: f64 = 3.0;
-/// Relative displacement of a contact in a mode below which the mode causes no events there.
+/// Relative displacement of a contact in a normal mode below which this mode causes no events in the contact.
 const MOVED: f64 = 0.05;
-/// Smallest number of kinks that a block causes per period of its input, by limits or hysteresis.
+/// Smallest number of kinks that a block adds per period of its input signal, by limits or hysteresis.
 const KINKS: f64 = 2.0;
-/// Amplitude below which no oscillation begins at the start, relative to u_c; equilibria are accurate to rounding.
+/// Amplitude relative to u_c below which no oscillation begins at the start; equilibria are accurate to rounding only.
 const SEEN: f64 = 1e-6;
-/// Amplitude above which an initial oscillation is gross slip and short, relative to u_c.
+/// Amplitude relative to u_c above which an initial oscillation is short, because friction in gross slip damps it.
 const LOST: f64 = 0.5;
-/// Distance at which a corner belongs to the end of a period, in periods.
+/// Distance at which a corner counts as the end of a period, in periods.
 const SAME: f64 = 1e-9;
 
 /// Number of events by the type of normal load.
 struct Pace {
-    /// For a prescribed force, indentation or radius.
+    /// Number for a prescribed normal force, indentation or contact radius.
     pressed: f64,
-    /// For a normal load by the motion of bodies.
+    /// Number for a normal load by the motion of bodies.
     coupled: f64,
 }
 
@@ -52,14 +52,14 @@ impl Pace {
 /// Expected number of events of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedEvents {
-    /// Corners of waveforms, counted.
+    /// Exact number of corners of waveforms.
     pub corners: f64,
-    /// Events of contacts and blocks, estimated: within a factor of two on the examples.
+    /// Estimated number of events of contacts and blocks, within a factor of two on the examples.
     pub contacts: f64,
 }
 
 impl ExpectedEvents {
-    /// Returns the expected numbers for a plan.
+    /// Returns the expected numbers of events for a [`Plan`].
     pub fn of(setup: Setup<'_>, plan: &Plan) -> Self {
         let Setup { scene, model, start } = setup;
         let linear = model.linearised(start, |d| d.most);
@@ -76,19 +76,19 @@ impl ExpectedEvents {
         Self { corners, contacts: contacts + blocks }
     }
 
-    /// Returns the number of all events.
+    /// Returns the expected number of all events.
     pub fn total(&self) -> f64 {
         self.corners + self.contacts
     }
 }
 
-/// Returns the number of periods of a waveform until `duration`, s.
+/// Returns the number of periods of a waveform until the time `duration`, s.
 fn cycles(waveform: &Waveform, period: f64, duration: f64) -> f64 {
     let timing = waveform.timing();
     ((duration - timing.delay) / period).min(timing.cycles.unwrap_or(f64::INFINITY)).max(0.0)
 }
 
-/// Returns the number of corners between two times, s.
+/// Returns the number of corners of a waveform between two times, s.
 fn corners_until(waveform: &Waveform, start: f64, end: f64) -> f64 {
     let mut piece = waveform.piece_at(start);
     let mut corners = 0.0;
@@ -99,13 +99,13 @@ fn corners_until(waveform: &Waveform, start: f64, end: f64) -> f64 {
     corners
 }
 
-/// Returns the number of corners of one period after the delay, including that at its end.
+/// Returns the number of corners of a waveform in one period after the delay, including a corner at the end of the period.
 fn corners_per_period(waveform: &Waveform, period: f64) -> f64 {
     let start = waveform.timing().delay;
     corners_until(waveform, start, start + (1.0 + SAME) * period)
 }
 
-/// Returns the number of corners until `duration`, s.
+/// Returns the number of corners of a waveform until the time `duration`, s.
 fn corners(waveform: &Waveform, duration: f64) -> f64 {
     match waveform.period() {
         Some(period) => cycles(waveform, period, duration) * corners_per_period(waveform, period),
@@ -113,7 +113,7 @@ fn corners(waveform: &Waveform, duration: f64) -> f64 {
     }
 }
 
-/// Returns the estimate for block `k`: two reversals per period of its waveform.
+/// Returns the estimated number of events of block `k`: two reversals per period of its waveform, times the block's events per reversal.
 fn of_block(scene: &Scene, k: usize, duration: f64) -> f64 {
     let Some(block) = scene.blocks.get(k) else { return 0.0 };
     let waveform = scene.waveform_of(scene.waveforms.len() + k).and_then(|w| scene.waveforms.get(w));
@@ -121,7 +121,7 @@ fn of_block(scene: &Scene, k: usize, duration: f64) -> f64 {
     turns.unwrap_or(0.0) * f64::from(block.part.0.events_per_turn())
 }
 
-/// Whether a mode moves contact `c` along the slide. Angles are not compared with displacements.
+/// Returns whether a normal mode moves contact `c` along the slide. Angles are not compared with displacements.
 fn rings_at(linear: &Linearised, mode: &NormalMode, c: usize) -> bool {
     let lengths = linear.coordinates().iter().zip(&mode.shape).filter(|(name, _)| !name.ends_with(".pitch"));
     let lengths = lengths.map(|(_, length)| length).chain(&mode.contacts);
@@ -141,8 +141,8 @@ fn closing(scene: &Scene, contact: &Contact) -> f64 {
     rise(0) - rise(1)
 }
 
-/// Returns the number of landings until `duration` (s) of a contact with initial gap `height` (m) and closing `speed` (m/s).
-/// Impacts are assumed elastic; without gravity there is one.
+/// Returns the number of landings until `duration` (s) for a contact with initial gap `height` (m) and closing `speed` (m/s). Impacts are
+/// assumed elastic; without gravity there is at most one landing.
 fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
     // Only gravity along the normal returns the body.
     let (_, fall) = scene.gravity.components();
@@ -153,10 +153,10 @@ fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
     }
 }
 
-/// Whether an imbalance at the start excites a mode at a contact. The amplitude a = [(u̇/ω)² + (ü/ω²)²]^½ must exceed the
-/// response to a sinusoidal foot, x̂(ω'/ω)², with frequency ω'.
+/// Returns whether an initial imbalance excites a normal mode at a contact. The amplitude a = [(u̇/ω)² + (ü/ω²)²]^½ must exceed the
+/// response x̂(ω'/ω)² to a sinusoidal motion of the driving body with amplitude x̂ and frequency ω'.
 ///
-/// Very small oscillations do not count; oscillations near u_c end soon by friction.
+/// Very small oscillations do not count. Oscillations with amplitudes near u_c do not count either, because friction soon ends them.
 fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequency: f64) -> bool {
     let (contact, layout) = (&model.contacts[c], model.layout());
     let eq = Equations::on(model, start, layout, false);
@@ -176,8 +176,8 @@ fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequenc
     amplitude > given && (SEEN..LOST).contains(&(amplitude / contact.natural.displacement))
 }
 
-/// Returns the estimate for contact `c` over the run: reversals by all waveforms that reach it, the longest free oscillation, and
-/// landings. 0 for a contact without friction or never pressed.
+/// Returns the estimated number of events of contact `c` in the run: reversals by waveforms, the longest free oscillation, and landings.
+/// The number is 0 for a contact without friction or never pressed.
 fn of_contact(
     setup: Setup<'_>,
     c: usize,
@@ -230,8 +230,8 @@ fn of_contact(
     turns + most + PER_LANDING * landings(scene, (-d.start, closing(scene, contact)), duration)
 }
 
-/// Returns the waveforms that move contact `c`, each with whether a block is in between, whose laws add kinks. They are followed
-/// by its sides, press it, or act on free bodies connected with it.
+/// Returns the waveforms that move or load contact `c`, directly or through free bodies connected with it. The flag of a waveform is set if
+/// a block with its kinks is in between.
 fn drivers(scene: &Scene, c: usize) -> Vec<(usize, bool)> {
     let Some(contact) = scene.contacts.get(c) else { return Vec::new() };
     let edges = || {

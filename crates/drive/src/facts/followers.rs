@@ -7,9 +7,9 @@ use crate::scene::{Axis, Freedom, Normal, Scene, Varying};
 pub struct Follower {
     /// Index of the waveform.
     pub waveform: usize,
-    /// Name of the quantity, such as `foot.x` or `ball.force`, as in the scenario.
+    /// Name of the quantity as in the scenario, such as `foot.x` or `ball.force`.
     pub what: String,
-    /// Whether it is a force; otherwise a length or an angle.
+    /// Whether the quantity is a force; otherwise it is a length or an angle.
     pub is_force: bool,
 }
 

@@ -7,13 +7,13 @@ use std::f64::consts::TAU;
 /// Normal mode with all contacts stuck.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
-    /// Frequency with the indentations of t = 0, Hz; 0 for a free motion.
+    /// Frequency with the contact indentations of t = 0, Hz; 0 for a free motion.
     pub frequency: f64,
-    /// Frequencies of the mode of this index at the smallest and the largest indentations, Hz. None if all normal loads are constant.
+    /// Frequencies of the mode with this index at the smallest and the largest indentations, Hz; `None` if all normal loads are constant.
     pub range: Option<(f64, f64)>,
-    /// Damping ratio, a fraction of critical damping.
+    /// Damping ratio as a fraction of critical damping.
     pub damping_ratio: f64,
-    /// Displacement of each coordinate by name; the largest is 1.
+    /// Name and displacement of each coordinate in the mode; the largest displacement is 1.
     pub shape: Vec<(String, f64)>,
 }
 

@@ -1,25 +1,25 @@
-//! Contacts whose path (u, d) waveforms prescribe: stick, partial and gross slip without a run.
+//! Contacts whose path (u, d) is prescribed by waveforms: fretting regime (stick, partial slip, gross slip) without a run.
 //!
-//! A spring at height h of the profile slips when its stretch reaches κ(d-h), with κ = μE\*/G\*. The last spring to slip is that at h = 0.
-//! It sticks permanently at u = p if max(u-κd) ≤ p ≤ min(u+κd) over a period. Without such a p the whole contact slips in every period.
+//! A spring at height h of the profile slips when its stretch reaches κ(d-h), with κ = μE\*/G\*. The last spring to slip is at the centre,
+//! h = 0. The centre sticks at a constant position p if max(u-κd) ≤ p ≤ min(u+κd) over a period. Otherwise there is gross slip.
 
 use crate::contact::{Contact, Press};
 use crate::{Model, Piece, Waveform};
 use stickslip_stepper::{Bracket, Point, root};
 
-/// Largest ratio of a common period to the longest period.
+/// Largest allowed ratio of a common period to the longest period of a waveform.
 const MULTIPLES: u32 = 1000;
 /// Relative tolerance of a common period, in units of a period.
 const COMMENSURATE: f64 = 1e-9;
-/// Number of intervals per quarter of the shortest wave, or per piece, in the search for extremes.
+/// Number of search intervals for extremes, per quarter of the shortest wave or per smooth piece.
 const PARTS: f64 = 16.0;
-/// Largest number of pieces and intervals in one period.
+/// Largest number of smooth pieces of waveforms, and of search intervals, in one period.
 const MOST_PARTS: usize = 1 << 16;
-/// Relative tolerance for a path that returns on the same line, in units of the largest u and κd.
+/// Relative tolerance within which a path returns on the same line, in units of the largest u and κd.
 const SAME_LINE: f64 = 1e-9;
 
-/// Returns the smallest common multiple of periods, s, to a relative tolerance of 1e-9. None without periods, or if it exceeds a
-/// thousand times the longest period.
+/// Returns the smallest common multiple of periods, s, with a relative tolerance of 1e-9. `None` for an empty list, or if the multiple
+/// exceeds a thousand times the longest period.
 #[must_use]
 pub fn common_period(periods: &[f64]) -> Option<f64> {
     let longest = periods.iter().copied().fold(0.0, f64::max);
@@ -40,13 +40,13 @@ pub struct Prescribed<'m> {
     corners: Vec<f64>,
 }
 
-/// u and d (m) and their rates (m/s) at one time. An open contact has d = 0.
+/// Displacement u and indentation d (m) with their rates (m/s) at one time; d = 0 for an open contact.
 type Moment = [f64; 4];
 
 impl<'m> Prescribed<'m> {
-    /// Returns the path of contact `c` of a model.
+    /// Returns the prescribed path of contact `c` of a model.
     ///
-    /// None if a free body, a block or a caller moves it, if its springs are a row, or if the waveforms have no common period.
+    /// `None` if other motions than waveforms move the contact, if it is a row of springs, or if the waveforms have no common period.
     #[must_use]
     pub fn of(model: &'m Model, c: usize) -> Option<Self> {
         let contact = model.contacts.get(c)?;
@@ -73,7 +73,7 @@ impl<'m> Prescribed<'m> {
         Some(Self { contact, waveforms, corners })
     }
 
-    /// Returns max(u-κd) and min(u+κd) over the period, m. The contact slips as a whole if the first exceeds the second.
+    /// Returns max(u-κd) and min(u+κd) over the period, m. The contact has gross slip if the first value exceeds the second.
     #[must_use]
     pub fn gross(&self) -> [f64; 2] {
         let slope = self.contact.interface.stick_slope();
@@ -84,13 +84,13 @@ impl<'m> Prescribed<'m> {
         [low, -high]
     }
 
-    /// Returns the largest indentation over the period, m; 0 for a contact that never closes.
+    /// Returns the largest indentation of the contact over the period, m; 0 for a contact that never closes.
     #[must_use]
     pub fn deepest(&self) -> f64 {
         self.largest(|[_, d, _, dd]| (d, dd))
     }
 
-    /// Returns [max(u-κd) - min(u+κd)] relative to the largest u and κd. It is at least 0 if the contact slips as a whole.
+    /// Returns the margin of gross slip, max(u-κd) - min(u+κd), relative to the largest u and κd; at least 0 in gross slip.
     #[must_use]
     pub fn gross_margin(&self) -> f64 {
         let [low, high] = self.gross();
@@ -98,8 +98,8 @@ impl<'m> Prescribed<'m> {
         if scale > 0.0 { (low - high) / scale } else { 0.0 }
     }
 
-    /// Returns the margin of slip: the maximum of (|u̇|-κ|ḋ|)/(|u̇|+κ|ḋ|) for a path that returns on the same line. It is
-    /// negative if every spring sticks. For a path that encloses an area it is 1.
+    /// Returns the margin of slip: the maximum of (|u̇|-κ|ḋ|)/(|u̇|+κ|ḋ|) for a path that returns on the same line. The margin is negative
+    /// if every spring sticks, and 1 for a path that encloses an area.
     #[must_use]
     pub fn slip_margin(&self) -> f64 {
         let slope = self.contact.interface.stick_slope();
@@ -143,7 +143,7 @@ impl<'m> Prescribed<'m> {
         [u, d, rate_of(&self.contact.u), dd]
     }
 
-    /// Calls `take` for every smooth section in order, with sampled times and a function for any other time of the section.
+    /// Calls the function `take` for every smooth section in order, with sampled times and a function for any other time of the section.
     fn each_stretch(&self, mut take: impl FnMut(&[(f64, Moment)], &dyn Fn(f64) -> Moment)) {
         let wave =
             self.waveforms.iter().map(|(_, waveform)| waveform.resolution()).fold(f64::INFINITY, f64::min);
@@ -160,7 +160,7 @@ impl<'m> Prescribed<'m> {
         }
     }
 
-    /// Returns the maximum of a function of the path, which returns value and rate.
+    /// Returns the maximum over the path of a function `of` that returns a value and its rate.
     fn largest(&self, of: impl Fn(Moment) -> (f64, f64)) -> f64 {
         let mut largest = f64::NEG_INFINITY;
         self.each_stretch(|moments, at| {
@@ -179,7 +179,7 @@ impl<'m> Prescribed<'m> {
     }
 }
 
-/// Returns the sorted boundaries of all pieces of the waveforms in a time span. None if there are too many.
+/// Returns the sorted boundaries of all smooth pieces of the waveforms in a time span; `None` if there are too many.
 fn corners(waveforms: &[(usize, &Waveform)], [start, end]: [f64; 2]) -> Option<Vec<f64>> {
     let mut all = vec![start, end];
     for (_, waveform) in waveforms {

@@ -1,23 +1,23 @@
 //! A contact at a given indentation: force, stiffness, and the stroke that an ideal inertia drive needs for a step.
 //!
-//! For `info` and summaries only. For varying loads the values are evaluated at the extreme [indentations](crate::Model::indentations).
-//! The ideal inertia drive is quasi-static except for its flyback; a real slider comes close to S₀ only with damping.
+//! The results serve for `info` and summaries only. For varying loads they apply to the extreme [indentations](crate::Model::indentations).
+//! The ideal inertia drive is quasi-static except for its flyback. A real slider comes close to the zero-step stroke S₀ only with damping.
 
 use super::Setup;
 use crate::scene::{Contact, Freedom, Normal, Scene, Side, Varying};
 use std::f64::consts::TAU;
 use stickslip_contact::{FirstLoading, Interface, NormalGiven, TangentialGiven};
 
-/// Quantities at an indentation. Forces, radius and pressure are those of one contact, stiffnesses those of all `count` contacts.
+/// Quantities of a contact at a given indentation. Forces, radius and pressure apply to one contact, stiffnesses to all identical contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pressed {
-    /// F_N of one contact, N.
+    /// Normal force F_N of one contact, N.
     pub normal_force: f64,
-    /// d, m; negative for an open contact.
+    /// Indentation d, m; negative for an open contact.
     pub indentation: f64,
     /// Contact radius a, m.
     pub radius: f64,
-    /// Largest pressure, Pa. Infinite at tips and edges; none for a list of springs.
+    /// Largest contact pressure, Pa; infinite at tips and edges, `None` for a list of springs.
     pub peak_pressure: Option<f64>,
     /// Gross slip displacement u_c = κd, m.
     pub gross_slip: f64,
@@ -27,27 +27,27 @@ pub struct Pressed {
     pub loaded: Option<Loaded>,
     /// Friction limit μF_N of all contacts, N.
     pub limit_force: f64,
-    /// ∂F_x/∂u of all contacts in full stick, N/m; 0 without friction.
+    /// Tangential contact stiffness ∂F_x/∂u of all contacts in full stick, N/m; 0 without friction.
     pub tangential_stiffness: f64,
-    /// ∂F_N/∂d of all contacts, N/m.
+    /// Normal contact stiffness ∂F_N/∂d of all contacts, N/m.
     pub normal_stiffness: f64,
-    /// Resonance frequency of the two bodies on the stuck contacts alone, Hz. None if neither body is free.
+    /// Resonance frequency of the two bodies on the stuck contacts alone, Hz; `None` if neither body is free.
     pub resonance: Option<f64>,
 }
 
 /// A constant load on a body that one contact alone holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loaded {
-    /// Loads and gravity along x, N.
+    /// Sum of loads and gravity along x, N.
     pub force: f64,
-    /// Utilisation |force|/μF_N.
+    /// Load relative to the friction limit, |force|/μF_N.
     pub share: f64,
-    /// Zero-step stroke S₀ for steps against the load, m. None if the contact does not hold the load.
+    /// Zero-step stroke S₀ for steps against the load, m; `None` if the contact does not hold the load.
     pub zero_step_stroke: Option<f64>,
 }
 
 impl Pressed {
-    /// Returns the quantities of contact `c` at indentation d (m). None if there is no such contact.
+    /// Returns the quantities of contact `c` at indentation d (m); `None` if there is no such contact.
     pub fn of(setup: Setup<'_>, c: usize, d: f64) -> Option<Self> {
         let (_, law) = setup.model.contacts().nth(c)?;
         let count = f64::from(setup.scene.contacts.get(c)?.part.count);
@@ -72,7 +72,7 @@ impl Pressed {
     }
 }
 
-/// Whether the normal load of a contact is constant.
+/// Returns whether the normal load of a contact is constant.
 pub fn has_constant_load(contact: &Contact) -> bool {
     match contact.normal {
         Normal::Force(load) | Normal::Indentation(load) | Normal::Radius(load) => {
@@ -82,11 +82,11 @@ pub fn has_constant_load(contact: &Contact) -> bool {
     }
 }
 
-/// Returns the zero-step stroke S₀ against a load λμF_N, m, with `share` = λ: the stroke below which an ideal inertia drive makes no step.
+/// Returns the zero-step stroke S₀ against a load λμF_N (`share` = λ), m: the stroke below which an ideal inertia drive makes no step.
 ///
-/// The flyback is instantaneous, in gross slip. Then u increases quasi-statically from F_x = -μF_N to λμF_N. By Masing's rule
-/// this is twice the displacement of a first loading to ½(1+λ)μF_N. For f ~ rⁿ this is 2u_c[1 - ((1-λ)/2)^{n/(n+1)}]. None if the
-/// contact does not hold the load.
+/// The flyback is instantaneous, in gross slip. Then u increases quasi-statically while F_x grows from -μF_N to λμF_N. By Masing's rule
+/// this is twice the displacement of a first loading to ½(1+λ)μF_N. For f ~ rⁿ it is 2u_c[1 - ((1-λ)/2)^{n/(n+1)}]. `None` if the contact
+/// does not hold the load.
 pub fn zero_step_stroke(law: &Interface, d: f64, share: f64) -> Option<f64> {
     if !(0.0..1.0).contains(&share) {
         return None;
@@ -98,7 +98,7 @@ pub fn zero_step_stroke(law: &Interface, d: f64, share: f64) -> Option<f64> {
     Some(2.0 * loading.u)
 }
 
-/// Returns the constant force along x on a free body that contact `c` alone holds, N. None without such a force.
+/// Returns the constant force along x on a free body that contact `c` alone holds, N; `None` without such a force.
 fn steady_load(scene: &Scene, c: usize) -> Option<f64> {
     let free = scene.contacts.get(c)?.part.between.into_iter().filter_map(|side| match side {
         Side::Body(body) if scene.bodies[body].part.x.freedom == Freedom::Free => Some(body),

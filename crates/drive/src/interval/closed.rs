@@ -1,14 +1,14 @@
-//! Contacts whose force is a closed form of u until the next event.
+//! Contacts whose tangential force is a closed form of u until the next event.
 //!
-//! At constant depth one slipping edge moves along one piece of memory: F_x = F₀ + gM(h_c), with the height h_c of the slip front linear
-//! in u. Event functions are linear in the state, and one evaluation needs one M. The memory is updated at the next event by one chord.
+//! At constant depth, slip spreads along one segment of the slip memory: F_x = F₀ + gM(h_c), with a slip-front height h_c that is linear in
+//! u. Event functions are linear in the state, and one evaluation needs one M. The next event updates the slip memory by one straight path.
 
 use super::Followed;
 use crate::Sample;
 use crate::contact::{Contact, Guard, Mode, Motion, Press};
 use stickslip_contact::{Apex, Branch, FixedDepthBranch};
 
-/// Contact at constant indentation on one branch.
+/// Contact at constant indentation on one branch of its slip memory, so that its force is a closed form of u.
 #[derive(Debug, Clone)]
 pub(crate) struct Closed<'a> {
     /// Index among the contacts.
@@ -17,17 +17,17 @@ pub(crate) struct Closed<'a> {
     /// Event functions that end the interval.
     pub(crate) guards: &'static [Guard],
     d: f64,
-    /// Prescribed part of u; the rest is Σ coefficient · coordinate.
+    /// Prescribed part of u; the other part is Σ coefficient · free coordinate.
     pub(super) followed: Followed<'a>,
-    /// Sum of the coefficients, du/dx for a single coordinate.
+    /// Sum of the coefficients of the free coordinates; du/dx for a single coordinate x.
     pub(crate) arm: f64,
     pub(super) branch: FixedDepthBranch,
-    /// Free coordinate and its coefficient, if there is only one.
+    /// Free coordinate that moves the contact and its coefficient, if there is only one.
     lever: Option<(usize, f64)>,
 }
 
 impl Closed<'_> {
-    /// Sets another branch and its event functions.
+    /// Sets another branch of the slip memory and its event functions.
     pub(super) fn renew(&mut self, branch: &Branch, guards: &'static [Guard]) {
         if let Press::Constant { d, reduced_force } = self.contact.press {
             self.branch = branch.at_depth(d, reduced_force);
@@ -35,50 +35,50 @@ impl Closed<'_> {
         self.guards = guards;
     }
 
-    /// Returns the prescribed part of u, m, and its derivatives.
+    /// Returns the prescribed part of u, m, with its time derivatives.
     #[inline(always)]
     pub(crate) fn followed(&self, t: f64) -> Sample {
         self.followed.at(t)
     }
 
-    /// Returns the rate of the prescribed part if it is constant, m/s.
+    /// Returns the rate of the prescribed part of u if this rate is constant, m/s.
     pub(crate) fn constant_rate(&self) -> Option<f64> {
         self.followed.line().map(|[_, rate, _]| rate)
     }
 
-    /// Returns the force on the coordinates along u, N; negative in forward slip.
+    /// Returns the contact force on the coordinates along u, N; the force is negative in forward slip.
     #[inline(always)]
     pub(crate) fn force(&self, u: f64) -> f64 {
         -self.contact.count * self.branch.force(self.contact.interface.profile(), u)
     }
 
-    /// Returns u at time t (s), m; `x` returns positions of free coordinates.
+    /// Returns the displacement u at time t (s), m; `x` returns positions of free coordinates.
     #[inline(always)]
     pub(crate) fn displacement(&self, t: f64, x: impl Fn(usize) -> f64) -> f64 {
         // Large displacements of two bodies cancel first.
         self.own(x) + self.followed(t).value
     }
 
-    /// Returns u̇ at time t (s), m/s; `v` returns velocities of free coordinates.
+    /// Returns the rate u̇ at time t (s), m/s; `v` returns velocities of free coordinates.
     #[inline(always)]
     pub(crate) fn speed(&self, t: f64, v: impl Fn(usize) -> f64) -> f64 {
         self.own(v) + self.followed(t).rate
     }
 
-    /// Returns the motion at time t (s); `x` and `v` return positions and velocities of free coordinates.
+    /// Returns the motion of the contact at time t (s); `x` and `v` return positions and velocities of free coordinates.
     #[inline(always)]
     pub(crate) fn motion(&self, t: f64, x: impl Fn(usize) -> f64, v: impl Fn(usize) -> f64) -> Motion {
         let Sample { value, rate, .. } = self.followed(t);
         Motion { d: self.d, u: self.own(x) + value, dd: 0.0, du: self.own(v) + rate }
     }
 
-    /// Returns d and u at time t (s); `x` returns positions of free coordinates.
+    /// Returns indentation d and displacement u at time t (s); `x` returns positions of free coordinates.
     #[inline(always)]
     pub(crate) fn apex(&self, t: f64, x: impl Fn(usize) -> f64) -> Apex {
         Apex { d: self.d, u: self.displacement(t, x) }
     }
 
-    /// Returns the motion at time t (s) and ü, m/s²; `a` returns accelerations of free coordinates.
+    /// Returns the motion of the contact at time t (s) and ü, m/s²; `x`, `v`, `a` return coordinates and their derivatives.
     #[inline(always)]
     pub(crate) fn course(
         &self,
@@ -92,7 +92,7 @@ impl Closed<'_> {
         (motion, self.own(a) + acceleration)
     }
 
-    /// Returns one of its event functions: rest of the piece of memory, or velocity of the edge.
+    /// Returns the value of an event function: remaining length of the segment of slip memory, or velocity of slip.
     #[inline(always)]
     pub(crate) fn guard(&self, guard: Guard, at: &Motion) -> f64 {
         match guard {
@@ -101,7 +101,7 @@ impl Closed<'_> {
         }
     }
 
-    /// Returns the rate of an event function; `second` is ü (m/s²).
+    /// Returns the time derivative of an event function; `second` is ü (m/s²).
     #[inline(always)]
     pub(crate) fn guard_rate(&self, guard: Guard, at: &Motion, second: f64) -> f64 {
         match guard {
@@ -110,13 +110,13 @@ impl Closed<'_> {
         }
     }
 
-    /// Returns the displacement of the edge left until its piece of memory is used up, m; ∞ in gross slip.
+    /// Returns the displacement left until the present segment of slip memory is used up, m; ∞ in gross slip.
     #[inline(always)]
     pub(crate) fn margin(&self, u: f64) -> f64 {
         if self.branch.is_gross() { f64::INFINITY } else { self.branch.margin(u) }
     }
 
-    /// Whether the contact remains on the same piece with the same sense of slip.
+    /// Returns whether the contact remains on the same segment of slip memory with the same sense of slip.
     #[inline(always)]
     pub(crate) fn keeps(&self, motion: &Motion) -> bool {
         self.branch.sense() * motion.du >= 0.0 && self.margin(motion.u) >= 0.0
@@ -127,14 +127,14 @@ impl Closed<'_> {
         self.branch.sense()
     }
 
-    /// Returns the displacement of a single coordinate left until a piece of memory ends, m; ∞ in gross slip.
+    /// Returns the displacement of a single coordinate until a segment of slip memory is used up, m; ∞ in gross slip.
     #[inline(always)]
     pub(crate) fn reach(&self, t: f64, x: f64) -> f64 {
         let u = self.arm * x + self.followed(t).value;
         if self.branch.is_gross() { f64::INFINITY } else { self.branch.margin(u) / self.arm.abs() }
     }
 
-    /// Returns Σ coefficient · coordinate, or the same sum of derivatives.
+    /// Returns Σ coefficient · coordinate over the free coordinates, or the same sum of their derivatives.
     #[inline(always)]
     pub(crate) fn own(&self, of: impl Fn(usize) -> f64) -> f64 {
         match self.lever {
@@ -144,7 +144,7 @@ impl Closed<'_> {
     }
 }
 
-/// Returns a contact in closed form. None if it has none.
+/// Returns the data of a contact with a closed-form force; `None` if the contact's law has no such form.
 pub(super) fn closed_form<'a>(
     c: usize,
     (contact, mode): (&'a Contact, &Mode),

@@ -4,17 +4,17 @@ use crate::model::{Measure, Model};
 use crate::state::State;
 use crate::{Sample, Waveform};
 
-/// Prescribed part of a displacement in closed form: computed once per interval, without access to the waveform's piece.
+/// Prescribed part of a contact displacement as a closed form of time, computed once per interval without access to the waveform's piece.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Followed<'a> {
-    /// All prescribed motions have constant rates: constant + rate (t - start).
+    /// Sum of prescribed motions with constant rates: constant + rate (t - start).
     Line { constant: f64, rate: f64, start: f64 },
-    /// One prescribed motion is a sum of sines: constant + factor · waveform.
+    /// One prescribed motion that is a sum of sines: constant + factor · waveform.
     Sines { constant: f64, factor: f64, waveform: &'a Waveform },
 }
 
 impl<'a> Followed<'a> {
-    /// Returns the prescribed part of a measure in a state. None if it is neither linear in time nor one sum of sines.
+    /// Returns the prescribed part of a displacement in a state; `None` if it is neither linear in time nor one sum of sines.
     pub(crate) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
         if let [(w, factor)] = measure.driven[..]
             && state.pieces.get(w)?.is_sines()
@@ -34,12 +34,12 @@ impl<'a> Followed<'a> {
         Some(Self::Line { constant, rate, start: start.unwrap_or(0.0) })
     }
 
-    /// Returns a constant, m.
+    /// Returns a prescribed displacement that is constant, m.
     pub(crate) fn constant(constant: f64) -> Self {
         Self::Line { constant, rate: 0.0, start: 0.0 }
     }
 
-    /// Returns one signal. None if its piece is neither linear nor a sum of sines.
+    /// Returns the closed form of one signal; `None` if its present piece is neither linear nor a sum of sines.
     pub(crate) fn signal(w: usize, model: &'a Model, state: &State) -> Option<Self> {
         let piece = state.pieces.get(w)?;
         if piece.is_sines() {
@@ -49,7 +49,7 @@ impl<'a> Followed<'a> {
         Some(Self::Line { constant: line.at(line.time), rate: line.rate, start: line.time })
     }
 
-    /// Returns the value (m) and its derivatives at time t (s).
+    /// Returns the prescribed displacement (m) and its derivatives at time t (s).
     #[inline(always)]
     pub(crate) fn at(&self, t: f64) -> Sample {
         match self {
@@ -64,7 +64,7 @@ impl<'a> Followed<'a> {
         }
     }
 
-    /// Returns [value at the start, rate, start] if it is linear in time.
+    /// Returns value at the start, rate and start time, if the displacement is linear in time.
     pub(crate) fn line(&self) -> Option<[f64; 3]> {
         match *self {
             Self::Line { constant, rate, start } => Some([constant, rate, start]),

@@ -1,9 +1,9 @@
-//! Precomputed forces of an interval (kernel).
+//! Precomputed forces of the time interval between two events (kernel).
 //!
-//! Steps evaluate the equations about ten times each. For up to [`WIDTH`] free coordinates, all data until the next event is
-//! stored contiguously. It contains rows of Jacobians padded with zeros, prescribed motions in closed form, and the law of each
-//! contact. Larger models use sparse rows ([`wide`]). Other elements (curved prescribed motions, rows of springs, the full force
-//! law, blocks, varying loads) require the general [`Equations`], with the same result.
+//! Each step evaluates the equations about ten times. For up to [`WIDTH`] free coordinates, all data until the next event are stored
+//! contiguously: padded rows of Jacobians, prescribed motions in closed form, and laws of contacts. Larger models use sparse rows
+//! ([`wide`]). Curved prescribed motions, rows of springs, the full force law, blocks and varying loads require the general [`Equations`],
+//! with the same result.
 
 mod contacts;
 mod length;
@@ -23,11 +23,11 @@ use wide::Wide;
 /// Largest number of free coordinates with padded rows: two bodies in two directions.
 pub(crate) const WIDTH: usize = 4;
 
-/// Precomputed forces of an interval. Scratch memory, rebuilt with it.
+/// Precomputed forces of the time interval between two events. Scratch memory, rebuilt after each event.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Kernel<'a> {
     extent: Extent,
-    /// Gravity and constant loads, N or N m, and inverse masses.
+    /// Sum of gravity and constant loads, N or N m, and inverse mass of each coordinate.
     forces: Row,
     mobilities: Row,
     steady: Vec<Steady<'a>>,
@@ -36,7 +36,7 @@ pub(crate) struct Kernel<'a> {
     wide: Wide<'a>,
 }
 
-/// Completeness of a kernel.
+/// Completeness of the precomputed forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Extent {
     /// Incomplete: the general equations are used.
@@ -49,7 +49,7 @@ enum Extent {
 }
 
 impl<'a> Kernel<'a> {
-    /// Whether a model may have a kernel.
+    /// Returns whether the forces of a model may be precomputed.
     fn fits(model: &Model) -> bool {
         !model.free.is_empty()
             && model.loads.is_empty()
@@ -68,13 +68,13 @@ impl<'a> Kernel<'a> {
         self.links.reserve(model.links.len());
     }
 
-    /// Returns its memory, empty.
+    /// Returns the allocated memory of the kernel, empty.
     pub(super) fn emptied(self) -> Kernel<'static> {
         let (steady, moving, links) = (emptied(self.steady), emptied(self.moving), emptied(self.links));
         Kernel { steady, moving, links, wide: self.wide.emptied(), ..Kernel::default() }
     }
 
-    /// Clears it: the general equations are used.
+    /// Clears the precomputed forces, so that the general equations are used.
     pub(super) fn clear(&mut self) {
         self.extent = Extent::Part;
         self.steady.clear();
@@ -83,7 +83,7 @@ impl<'a> Kernel<'a> {
         self.wide.clear();
     }
 
-    /// Computes the kernel of an interval. It stays incomplete if an element has no such form.
+    /// Computes the forces of an interval. The kernel stays incomplete if an element has no precomputed form.
     pub(super) fn lay_out(
         &mut self,
         (model, state): (&'a Model, &State),
@@ -115,7 +115,7 @@ impl<'a> Kernel<'a> {
         self.extent = Extent::Narrow;
     }
 
-    /// Sets another branch of a contact of closed form, given by its index among these.
+    /// Sets another branch of the slip memory for a contact, given by its index among those with a closed-form force.
     pub(super) fn renew(&mut self, place: usize, branch: FixedDepthBranch) {
         match self.extent {
             Extent::Part => {}
@@ -124,7 +124,7 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// Whether it contains all forces.
+    /// Returns whether the kernel contains all forces.
     #[inline(always)]
     pub(crate) fn is_whole(&self) -> bool {
         self.extent != Extent::Part
@@ -146,7 +146,7 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// Writes accelerations without velocities, and the input power.
+    /// Writes accelerations, computed without velocities, and the input power.
     #[inline(always)]
     pub(crate) fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
         match x.len() {
@@ -158,15 +158,15 @@ impl<'a> Kernel<'a> {
         }
     }
 
-    /// Returns sums that begin with the constant forces.
+    /// Returns sums of forces that initially contain the constant forces.
     #[inline(always)]
     fn sums<const N: usize>(&self) -> Sums<N> {
         Sums { forces: std::array::from_fn(|i| self.forces[i]), input: 0.0, damping: 0.0 }
     }
 
-    /// Writes the slopes for N coordinates. `MOVING` says whether a contact has variable depth or damping, whose laws need all registers.
+    /// Writes the slopes for N coordinates. `MOVING` says whether a contact has variable depth or damping; these laws need all registers.
     ///
-    /// The order of arguments avoids moves at the call.
+    /// The order of the arguments avoids moves between registers at the call.
     #[inline(never)]
     fn slopes_of<const N: usize, const MOVING: bool>(
         eq: &Equations<'_>,

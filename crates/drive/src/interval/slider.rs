@@ -1,12 +1,12 @@
-//! Single slider with contacts of closed form.
+//! Single slider whose contacts have closed-form forces.
 //!
-//! With one coordinate the height of every slip front is linear in time and position. An acceleration is a constant plus one M
-//! per contact in partial slip.
+//! For one coordinate, the height of every slip front is linear in time and position. The acceleration is a constant plus one reduced force
+//! M per contact in partial slip.
 
 use stickslip_contact::Profile;
 
-/// Single slider with contacts of closed form. Its acceleration is a₀ + Σ a M(h_c) and its input power P₀ + Σ P M(h_c), over the
-/// contacts in partial slip.
+/// Constants of a single slider whose contacts have closed-form forces: acceleration a₀ + Σ a M(h_c) and input power P₀ + Σ P M(h_c),
+/// summed over the contacts in partial slip.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Slider {
     /// a₀, m/s².
@@ -15,13 +15,13 @@ pub(crate) struct Slider {
     pub(crate) power: f64,
 }
 
-/// Contribution of a contact in partial slip to a single slider.
+/// Contribution of a contact in partial slip to the acceleration of a single slider.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pull<'a> {
     /// Index among the contacts.
     pub(super) index: usize,
     pub(super) profile: &'a Profile,
-    /// Coefficients of h_c = front + advance (t - start) + lean · x.
+    /// Coefficients of the slip-front height h_c = front + advance (t - start) + lean · x.
     pub(super) front: f64,
     pub(super) advance: f64,
     pub(super) start: f64,
@@ -33,7 +33,7 @@ pub(crate) struct Pull<'a> {
 }
 
 impl Pull<'_> {
-    /// Returns M at the slip front, m².
+    /// Returns the reduced force M at the slip front, m².
     #[inline(always)]
     pub(crate) fn reduced_force(&self, t: f64, x: f64) -> f64 {
         self.profile.reduced_force(self.height(t, x))

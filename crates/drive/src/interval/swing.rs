@@ -1,20 +1,20 @@
-//! Closed-form oscillation of a single slider between two events, with one smooth quadrature.
+//! Closed-form oscillation of a single slider between two events, by one smooth numerical quadrature.
 //!
-//! Only contacts of closed form act on the slider, and all slip over the same linear prescribed motion. The relative displacement
-//! q satisfies q̈ = b(q), with b decreasing as slip spreads. The first integral q̇² = ν² = ν₀² + 2∫b dq is concave in q. Its two
-//! zeros are the turning points q₁ < q₂ of an oscillation, of which the interval is an arc. With
+//! All contacts have closed-form forces and slip over the same linear prescribed motion. The relative displacement q satisfies q̈ = b(q),
+//! where b decreases as slip spreads. The first integral q̇² = ν² = ν₀² + 2∫b dq is concave in q. Its zeros q₁ < q₂ are the turning points
+//! of an oscillation, of which the interval is an arc. The oscillation is written as
 //!
 //! q = (q₁+q₂)/2 - (q₂-q₁)/2 cos θ,   ν² = 2 (q-q₁)(q₂-q) K,   K = (b̄[q₁,q] - b̄[q,q₂])/(q₂-q₁),
 //!
-//! and the mean b̄ of b over a range, the time is T = ∫dθ/√(2K). K is ω²/2 for a spring and varies slowly for a contact, so few
-//! Gauss–Legendre nodes reach rounding. If a piece of memory ends long before the turning point, T = ∫dq/ν is as smooth and needs
-//! no turning points.
+//! where b̄ is the mean of b over a range. The time is T = ∫dθ/√(2K). K is ω²/2 for a spring and varies slowly for a contact, so few
+//! Gauss–Legendre nodes reach rounding accuracy. If a segment of slip memory ends long before the turning point, T = ∫dq/ν is as smooth and
+//! needs no turning points.
 //!
-//! Closed forms exist for cones, paraboloids, powers r³ and r⁴, and the exact sphere: b = b₀ + Σ αM(h), h = h₀ - λq. Means of M
-//! are computed from roots of heights, without cancellation for small amplitudes.
+//! Closed forms exist for cones, paraboloids, powers r³ and r⁴, and the exact sphere: b = b₀ + Σ αM(h), h = h₀ - λq. Means of the reduced
+//! force M are computed from roots of heights, without cancellation for small amplitudes.
 //!
-//! Source: Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (motion in one dimension). The mean of the force in place of a
-//! difference of the potential is the discrete gradient of Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
+//! Source: Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (motion in one dimension). The mean of the force, in place of a difference of
+//! the potential, is the discrete gradient of Gonzalez, J. Nonlinear Sci. 6 (1996) 449.
 
 mod course;
 mod slip;
@@ -32,61 +32,61 @@ use stickslip_contact::RootSeries;
 use sway::Sway;
 use turning::{EXACT, ROUGH, softer};
 
-/// Ratio of final to initial height of a slip front below which the branch point at the centre affects the quadrature.
+/// Ratio of final to initial height of a slip front below which the branch point of M at the contact centre affects the quadrature.
 const BRANCH: f64 = 0.1;
-/// Fraction of the distance to the nearer turning point up to which the motion is integrated over q.
+/// Fraction of the distance to the nearer turning point up to which the displacement q is the integration variable.
 const FAR: f64 = 0.25;
-/// Smallest amplitude, relative to the natural length; smaller motions may be rounding and are left to the stepper.
+/// Smallest amplitude, relative to the natural length. Smaller motions may be rounding and are integrated numerically.
 const SMALLEST: f64 = 1e-9;
 
-/// Motion of the slider until its next event. Scratch memory, recomputed after each event.
+/// Closed-form motion of a single slider until its next event. Scratch memory, recomputed after each event.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Swing<'a> {
     /// Direction of slip along the coordinate, ±1.
     sense: f64,
-    /// Prescribed velocity along the coordinate, m/s: q̇ = ±(ẋ + drift).
+    /// Prescribed velocity along the coordinate, m/s; the velocity of slip is q̇ = ±(ẋ + drift).
     drift: f64,
-    /// Sinusoidal prescribed motion in place of `drift`, in gross slip.
+    /// Sinusoidal prescribed motion that replaces `drift` in gross slip.
     sway: Option<Sway<'a>>,
     /// Initial time, position and velocity.
     start: PhasePoint,
     mobility: f64,
     /// Constant force on the slider, N.
     load: f64,
-    /// b₀ along the slip direction, m/s².
+    /// Constant part b₀ of the acceleration along the slip direction, m/s².
     push: f64,
-    /// Closed form of each contact's energy, if it exists.
+    /// Closed form of each contact's normal-energy function, if it exists.
     laws: Vec<Option<RootSeries>>,
     slips: Vec<PartialSlip>,
-    /// Displacement until the first piece of memory ends, m; ∞ if none does.
+    /// Displacement until the first segment of slip memory ends, m; ∞ if no segment ends.
     reach: f64,
-    /// Turning points before and after the motion, m.
+    /// Turning points q₁ and q₂ before and after the motion, m.
     low: f64,
     high: f64,
-    /// Integration variable of time, and its values at the start and at the end.
+    /// Integration variable of the quadrature for time, and its values at the start and at the end.
     clock: Clock,
     from: f64,
     to: f64,
-    /// Time until the event, s; ∞ if there is none.
+    /// Time until the next event, s; ∞ if there is none.
     pub(crate) duration: f64,
-    /// Whether the event is a turning point; otherwise a piece of memory ends.
+    /// Whether the next event is a turning point; otherwise a segment of slip memory ends.
     pub(crate) turns: bool,
-    /// Whether slip ends near the centre of a contact.
+    /// Whether a slip front ends near the centre of a contact.
     nears: bool,
     /// Tolerance of positions, in natural lengths.
     tolerance: f64,
     /// Relative size of the last Halley step to a turning point.
     last: f64,
-    /// Relative size of the last Newton step to a time, as a fraction of the whole range.
+    /// Relative size of the last Newton step to a time, as a fraction of the whole integration range.
     near: f64,
-    /// Distance beyond the end of a piece at which a turning point counts as its end, relative to the width of the arc.
+    /// Distance beyond the end of a memory segment at which a turning point counts as this end, relative to the width of the arc.
     grazing: f64,
-    /// Relative tolerance of times.
+    /// Relative tolerance of computed times.
     allowed: f64,
     pub(crate) evaluations: u64,
 }
 
-/// Integration variable of time.
+/// Integration variable of the quadrature for time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 enum Clock {
     /// Angle θ between two turning points.
@@ -105,12 +105,12 @@ pub(crate) struct PhasePoint {
 }
 
 impl<'a> Swing<'a> {
-    /// Returns an empty motion for a model. Positions have a `tolerance` relative to the natural length.
+    /// Returns an empty motion for a model. The `tolerance` of positions is relative to the natural length.
     pub(crate) fn of(model: &Model, tolerance: f64) -> Self {
         Self::default().renewed(model, tolerance)
     }
 
-    /// Reuses the memory for another model.
+    /// Reuses the allocated memory for another model.
     pub(crate) fn renewed(self, model: &Model, tolerance: f64) -> Self {
         let Self { mut laws, mut slips, .. } = self;
         let last = (0.1 * math::cbrt(tolerance)).clamp(EXACT, ROUGH);
@@ -126,12 +126,12 @@ impl<'a> Swing<'a> {
         Self { tolerance, last, near, grazing, laws, slips, ..Self::default() }
     }
 
-    /// Returns its memory, empty.
+    /// Returns the allocated memory of the motion, empty.
     pub(crate) fn emptied(self) -> Swing<'static> {
         Swing { laws: self.laws, slips: self.slips, ..Swing::default() }
     }
 
-    /// Takes over an interval and an initial state. Returns false if the motion has no such closed form.
+    /// Sets up the motion for an interval and an initial state. Returns false if the motion has no such closed form.
     pub(crate) fn begin(&mut self, interval: &Interval<'a>, slider: &Free, start: PhasePoint) -> bool {
         let Some(first) = interval.closed.first() else { return false };
         // The slider does not move this contact.
@@ -153,7 +153,7 @@ impl<'a> Swing<'a> {
             {
                 return false;
             }
-            // The first piece of memory of any contact that ends determines the interval.
+            // The segment of slip memory that ends first, of any contact, determines the interval.
             self.reach = self.reach.min(steady.reach(start.t, start.x));
         }
         self.slips.clear();
@@ -170,17 +170,17 @@ impl<'a> Swing<'a> {
         true
     }
 
-    /// Returns the initial time, position and velocity.
+    /// Returns the initial time, position and velocity of the slider.
     pub(crate) fn start(&self) -> PhasePoint {
         self.start
     }
 
-    /// Whether all contacts are in gross slip: the motion is a parabola.
+    /// Returns whether all contacts are in gross slip, so that the motion is a parabola.
     pub(crate) fn is_free(&self) -> bool {
         self.slips.is_empty()
     }
 
-    /// Whether a velocity of the coordinate (m/s) is opposite to the slip. The velocity may change its sign within an arc.
+    /// Returns whether a velocity of the coordinate (m/s) is opposite to the slip. The slider's velocity may change its sign within an arc.
     pub(crate) fn leads_back(&self, velocity: f64) -> bool {
         self.sense * velocity < 0.0
     }
@@ -199,11 +199,11 @@ impl<'a> Swing<'a> {
         }
     }
 
-    /// Computes the event that ends the motion. Returns false if there is none in closed form. `length` is the natural length, m.
+    /// Computes the event that ends the motion. Returns false if there is no such event in closed form. `length` is the natural length, m.
     pub(crate) fn aim(&mut self, length: f64) -> bool {
         self.evaluations = 0;
         let speed = self.speed();
-        // If slip has reversed or its piece is used up, the stepper continues.
+        // If slip has reversed or the segment of memory is used up, the motion is integrated numerically.
         if speed.is_nan() || speed < 0.0 || self.reach <= 0.0 {
             return false;
         }
@@ -232,15 +232,15 @@ impl<'a> Swing<'a> {
         self.set_out(bend, self.tolerance * length)
     }
 
-    /// Sets a motion that ends with a piece of memory, far from turning points.
+    /// Sets a motion far from turning points that ends where a segment of slip memory ends.
     fn pass(&mut self) {
         (self.clock, self.turns, self.nears) = (Clock::Way, false, false);
         (self.from, self.to) = (0.0, self.reach);
     }
 
-    /// Sets an arc between two turning points near two guesses. Returns false if it is not an arc.
+    /// Sets a motion between two turning points near two guesses. Returns false if there are no such turning points.
     ///
-    /// The final angle is π at a turning point and smaller at the end of a piece.
+    /// The final angle is π at a turning point, and smaller where a segment of slip memory ends.
     fn swing_between(&mut self, speed: f64, guesses: [f64; 2], length: f64) -> bool {
         let Some([low, high]) = self.turning(speed, guesses) else { return false };
         // Smaller motions may be rounding.
@@ -249,8 +249,8 @@ impl<'a> Swing<'a> {
         }
         (self.low, self.high) = (low, high);
         self.slips.iter_mut().for_each(|slip| slip.swing_between(low, high));
-        // In the angle the integrand is smooth at both ends, where 1/ν diverges. A loop that closes almost at the turning point, as in
-        // periodic motions, ends there. Both laws differ by the square of the rest; the time to the end of the piece would be inaccurate.
+        // As a function of the angle the integrand is smooth at both ends, where 1/ν diverges. A loop that closes almost at the turning
+        // point, as in periodic motions, ends there: the laws differ by the square of the distance, and the time to its end is inaccurate.
         (self.clock, self.turns) = (Clock::Angle, high <= self.reach + self.grazing * (high - low));
         // From rest the angle is exactly 0.
         self.from = if low < 0.0 { self.angle(0.0) } else { 0.0 };
@@ -259,13 +259,13 @@ impl<'a> Swing<'a> {
         true
     }
 
-    /// Whether a slip front comes near the centre up to displacement q.
+    /// Returns whether a slip front comes near the contact centre up to displacement q.
     fn nears_centre(&self, q: f64) -> bool {
         let nears = |slip: &PartialSlip| slip.height - slip.lean * q < BRANCH * slip.height;
         self.slips.iter().any(|slip| !slip.ends_smoothly() && nears(slip))
     }
 
-    /// Computes the time of the event.
+    /// Computes the time of the next event.
     fn set_out(&mut self, bend: f64, allowed: f64) -> bool {
         let span = self.to - self.from;
         // Displacement caused by a relative error of time.
@@ -280,7 +280,7 @@ impl<'a> Swing<'a> {
         is_good && duration > 0.0
     }
 
-    /// Computes the event in gross slip, where the motion is a parabola.
+    /// Computes the next event in gross slip, where the motion is a parabola.
     fn aim_free(&mut self, speed: f64, length: f64) -> bool {
         if let Some(sway) = self.sway {
             return self.aim_swayed(&sway, length);
@@ -292,7 +292,7 @@ impl<'a> Swing<'a> {
         speed > 0.0 && (way > SMALLEST * length || !self.turns)
     }
 
-    /// Returns b at the start and its first two derivatives; m/s², 1/s², 1/(m s²).
+    /// Returns the acceleration b at the start and its first two derivatives with respect to q; m/s², 1/s², 1/(m s²).
     fn force_at_start(&self) -> [f64; 3] {
         let mut sum = [self.push, 0.0, 0.0];
         for slip in &self.slips {
@@ -302,7 +302,7 @@ impl<'a> Swing<'a> {
         sum
     }
 
-    /// Returns the mean of b from the start to q, b at q (m/s²) and its derivative there (1/s²).
+    /// Returns the mean of the acceleration b from the start to q, b at q (m/s²) and its derivative there (1/s²).
     #[inline(always)]
     fn force<const N: usize>(&self, q: [f64; N]) -> [[f64; N]; 3] {
         let mut sum = [[self.push; N], [self.push; N], [0.0; N]];
@@ -313,7 +313,7 @@ impl<'a> Swing<'a> {
         sum
     }
 
-    /// Returns K at q, 1/s².
+    /// Returns the factor K of ν² at q, 1/s².
     #[inline(always)]
     fn stiffness<const N: usize>(&self, q: [f64; N]) -> [f64; N] {
         let mut sum = [0.0; N];
@@ -329,7 +329,7 @@ impl<'a> Swing<'a> {
 mod tests {
     use super::*;
 
-    /// Motion from a given velocity against one contact with N = h^{2+1/n} and unit constants, whose piece of memory ends in the centre.
+    /// Motion with an initial velocity against one contact with N = h^{2+1/n} and unit constants, whose memory segment ends in the centre.
     fn swing(root: u32, push: f64, speed: f64) -> Swing<'static> {
         let law = RootSeries { root, factor: 1.0, curvature: 0.0, terms: &[1.0] };
         Swing {
@@ -346,7 +346,7 @@ mod tests {
         }
     }
 
-    /// Every start has a solution. Its time agrees to 1e-5 with a midpoint rule of dq/ν over the root of the remaining displacement.
+    /// Every start has a solution, whose time agrees to 1e-5 with a midpoint rule of dq/ν over the root of the remaining displacement.
     #[test]
     fn every_start_has_its_swing() {
         for (root, push, k) in all() {

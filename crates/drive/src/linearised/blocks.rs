@@ -1,7 +1,6 @@
 //! Eigenvalues of the states of blocks.
 //!
-//! A block reads earlier blocks only, so the eigenvalues of all blocks are those of each block alone. Forces of blocks on the
-//! bodies whose lengths they read are neglected.
+//! A block reads earlier blocks only, so each block alone determines its eigenvalues. Forces of blocks on bodies are neglected.
 
 use super::eigenvalues as all;
 use crate::component::{Block, Moment, Standing};
@@ -19,7 +18,7 @@ impl Model {
     }
 }
 
-/// Returns the eigenvalues of the Jacobian of a block's slopes at its start for these inputs, 1/s.
+/// Returns the eigenvalues of the Jacobian of a block's slopes at the start, for given inputs, 1/s.
 pub(crate) fn eigenvalues(block: &(impl Block + ?Sized), inputs: &[Sample]) -> Vec<(f64, f64)> {
     let scales = block.states().scales;
     let (start, memory) = block.start(inputs);

@@ -1,4 +1,4 @@
-//! Number of time steps in a frame.
+//! Number of time steps in a frame (control interval) of a real-time simulation.
 
 use super::Linearised;
 use crate::contact::Contact;
@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Step ωh divided by the square root of the accuracy, for constant normal loads.
 const STRIDE: f64 = 9.0;
-/// Step ωh divided by the square root of the accuracy, for varying normal loads: every step is one chord between kinks.
+/// Step ωh divided by the square root of the accuracy, for varying normal loads: kinks then limit the accuracy of every step.
 const MOVING: f64 = 2.0;
 /// Fraction of the longest stable step that is used.
 const STABLE: f64 = 0.5;
@@ -18,16 +18,16 @@ const TRUNCATION: f64 = 120.0;
 impl Model {
     /// Returns the number of steps in a frame of a length (s) for an error of `accuracy` per stroke, relative to the stroke; an integer.
     ///
-    /// The step h is the smallest of these:
+    /// The time step h is the smallest of these:
     ///
-    /// * h = 9 √accuracy/ω, because kinks of a contact's law inside a step cause a local error of (ωh)². With varying normal
-    ///   loads h = 2 √accuracy/ω.
-    /// * Half the longest stable step.
-    /// * h = (120 accuracy)^{1/5}/|λ|, for states of blocks and bodies on damped contacts. λ is their largest eigenvalue; a step
-    ///   loses (|λ|h)⁵/120.
+    /// * h = 9 √accuracy/ω, because kinks of a contact's law inside a step cause a local error of (ωh)². With varying normal loads h = 2
+    ///   √accuracy/ω.
+    /// * Half the longest stable time step.
+    /// * h = (120 accuracy)^{1/5}/|λ|, for states of blocks and bodies on damped contacts, with the largest eigenvalue λ. The local error
+    ///   of a step is (|λ|h)⁵/120.
     ///
-    /// ω is the highest natural angular frequency in full stick at the largest depths, or the fastest angular frequency of a
-    /// waveform, if larger.
+    /// ω is the highest natural angular frequency in full stick at the largest depths, or the highest angular frequency of a waveform, if
+    /// larger.
     pub fn substeps(&self, length: f64, accuracy: f64) -> f64 {
         let parts = self.parts(|d| d.most);
         let swing = parts.iter().map(Linearised::highest_frequency).fold(0.0, f64::max);
@@ -44,7 +44,7 @@ impl Model {
         (length / step).ceil().max(1.0)
     }
 
-    /// Whether the normal load of a contact varies.
+    /// Returns whether the normal load of any contact varies.
     pub(crate) fn has_moving_normals(&self) -> bool {
         self.contacts.iter().any(|contact| !contact.is_constant() && !contact.is_never_pressed())
     }

@@ -1,27 +1,27 @@
-//! Inputs of the linearised motions: M ẍ + C ẋ + K x = Σ (pᵥ v + qᵥ v̇) over the signals v.
+//! Inputs of the linearised equations of motion: M ẍ + C ẋ + K x = Σ (pᵥ v + qᵥ v̇) over the signals v.
 
 use super::Indentations;
 use crate::model::{Measure, Stroke};
 use crate::{Model, State};
 use nalgebra::DVector;
 
-/// A signal that acts on the free coordinates.
+/// Signal that acts on the free coordinates of the linearised equations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearInput {
     /// Index of the signal: waveforms first, then blocks.
     pub signal: usize,
-    /// p: force on each free coordinate per value of the signal.
+    /// Coefficient p: force on each free coordinate per value of the signal.
     pub stiffness: DVector<f64>,
-    /// q: force on each free coordinate per rate of the signal.
+    /// Coefficient q: force on each free coordinate per rate of the signal.
     pub damping: DVector<f64>,
 }
 
 impl Model {
-    /// Returns the signals that drive the motions of [`Model::linearised`], with all contacts stuck at the indentation (m) that
-    /// `depth` selects.
+    /// Returns the signals that drive the linearised equations of [`Model::linearised`], with all contacts stuck at the indentation (m)
+    /// that `depth` selects.
     ///
-    /// They are prescribed motions of bodies, strokes of stacks, and loads; signals without effect are omitted. Indices after
-    /// waveforms and blocks are balanced coordinates.
+    /// These signals are prescribed motions of bodies, strokes of stacks, and loads; signals without effect are omitted. Indices after
+    /// waveforms and blocks belong to quasi-static coordinates.
     #[must_use]
     pub fn linear_inputs(&self, state: &State, depth: impl Fn(&Indentations) -> f64) -> Vec<LinearInput> {
         let mut all: Vec<LinearInput> = Vec::new();

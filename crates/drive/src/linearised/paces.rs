@@ -1,21 +1,21 @@
-//! Rates of small motions, and stiffness of the model.
+//! Eigenvalues (rates) of small motions with stuck contacts, and detection of stiff models.
 
 use crate::Model;
 use nalgebra::{Complex, ComplexField};
 use std::f64::consts::FRAC_PI_2;
 
-/// Ratio -Re λ/|λ| above which a motion e^{λt} counts as decaying.
+/// Ratio -Re λ/|λ| above which a motion e^{λt} counts as decaying, not oscillating.
 const FADES: f64 = 0.5;
 /// Ratio of the fastest decay rate to all other rates above which a model is stiff.
 // Below this ratio explicit steps are as cheap as implicit ones.
 const STIFF: f64 = 100.0;
 
-/// Largest rates of small motions.
+/// Largest eigenvalues of small motions with stuck contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Paces {
     /// Largest |λ| of the motions e^{λt} of bodies, 1/s.
     pub(crate) fastest: f64,
-    /// Largest |λ| of the decaying ones, 0 without any.
+    /// Largest |λ| of the decaying motions, 1/s; 0 if no motion decays.
     pub(crate) fading: f64,
     /// Whether the fastest decay, including states of blocks, is much faster than all oscillations and waveforms.
     pub(crate) stiff: bool,
@@ -33,7 +33,7 @@ struct Rates {
 }
 
 impl Model {
-    /// Returns the rates with all contacts stuck at their largest indentation, as bounds for the whole run.
+    /// Returns the largest eigenvalues with all contacts stuck at their largest indentation, as bounds for the whole run.
     pub(crate) fn paces(&self) -> Paces {
         let (mut fastest, mut all) = (0.0_f64, Rates::default());
         if let Some(frequency) = self.only_frequency() {
@@ -74,7 +74,7 @@ impl Rates {
         self.least = Some(self.least.map_or(size, |least| least.min(size)));
     }
 
-    /// Returns the largest rate that does not decay, 1/s: oscillations, periods and waves of waveforms. Without any, the smallest rate.
+    /// Returns the largest rate of oscillations and waveforms, 1/s; without oscillations and waveforms, the smallest rate.
     fn pace(&self, model: &Model) -> f64 {
         let waves = model.waveforms.iter().flat_map(|waveform| {
             [std::f64::consts::TAU / waveform.extent(), FRAC_PI_2 / waveform.resolution()]

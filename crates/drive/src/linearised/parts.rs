@@ -1,6 +1,6 @@
-//! Linearised motions by independent subsystems.
+//! Linearised equations of motion by independent subsystems.
 //!
-//! Coordinates that no contact or link connects have separate matrices. Many independent sliders then need many small matrices
+//! Subsystems that no contact or spring connects have separate matrices. A model of many independent sliders then needs many small matrices
 //! instead of a large one.
 
 use super::{Indentations, Linearised, Row, add};
@@ -8,11 +8,11 @@ use crate::Model;
 use crate::model::Terms;
 use nalgebra::{DMatrix, DVector};
 
-/// Number of free coordinates up to which one matrix is used.
+/// Number of free coordinates up to which the whole model has one matrix.
 // Eigenvalues of subsystems differ in the last bit, and so would runs of small models.
 const TOGETHER: usize = 64;
 
-/// Subsystem of each free coordinate, and its index there.
+/// Subsystem of each free coordinate, and the coordinate's index there.
 struct Division {
     places: Vec<(usize, usize)>,
     /// Coordinates of each subsystem.
@@ -20,12 +20,12 @@ struct Division {
 }
 
 impl Model {
-    /// Returns all motions about the state at t = 0 in one matrix, with given indentations of the contacts, m.
+    /// Returns the linearised equations of the whole model at t = 0 in one matrix, with given indentations of the contacts, m.
     pub(super) fn whole(&self, depth: impl Fn(usize) -> f64) -> Linearised {
         self.assemble(&Division::none(self.free.len()), depth).pop().unwrap_or_else(Linearised::nothing)
     }
 
-    /// Returns the motions by subsystem about the start, with the indentations (m) that `depth` selects.
+    /// Returns the linearised equations of each subsystem at the start, with the indentations (m) that `depth` selects.
     pub(super) fn parts(&self, depth: impl Fn(&Indentations) -> f64) -> Vec<Linearised> {
         let picked = |c: usize| {
             let start = self.indentation(&self.contacts[c]);
@@ -35,7 +35,7 @@ impl Model {
         self.assemble(&if few { Division::none(self.free.len()) } else { self.divide() }, picked)
     }
 
-    /// Groups the coordinates that links or contacts connect.
+    /// Groups the coordinates that springs or contacts connect.
     fn divide(&self) -> Division {
         let mut heads: Vec<usize> = (0..self.free.len()).collect();
         let links = self.links.iter().map(|link| &link.elongation);
@@ -105,12 +105,12 @@ impl Model {
 }
 
 impl Division {
-    /// Returns one subsystem with all coordinates.
+    /// Returns a division into one subsystem with all coordinates.
     fn none(free: usize) -> Self {
         Self { places: (0..free).map(|i| (0, i)).collect(), members: vec![(0..free).collect()] }
     }
 
-    /// Returns the subsystem of a row, and the row with the indices of that subsystem. The first subsystem for an empty row.
+    /// Returns the subsystem of a linear form, and the form with the indices of that subsystem; the first subsystem for an empty form.
     fn row(&self, terms: &Terms) -> (usize, Row) {
         let part = terms.first().map_or(0, |(i, _)| self.places[*i].0);
         (part, terms.iter().map(|(i, a)| (self.places[*i].1, *a)).collect())
@@ -125,7 +125,7 @@ impl Linearised {
     }
 }
 
-/// Returns the first coordinate of a subsystem, with path compression.
+/// Returns the first coordinate of the subsystem of coordinate `i` (union–find with path compression).
 fn head(heads: &mut [usize], i: usize) -> usize {
     let mut top = i;
     while heads[top] != top {

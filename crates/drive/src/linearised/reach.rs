@@ -22,8 +22,8 @@ impl Reach {
     pub(crate) const RK4: Self = Self { motion: Linearised::longest_rk4_step, state: rk4_reach };
 }
 
-/// Returns the largest step of the classical Runge–Kutta method for which x' = `rate` x does not grow, s. In the left half-plane
-/// the stability region is star-shaped, contains the half disc |z| < 2.6 and lies within |z| = 3.
+/// Returns the largest step of the classical Runge–Kutta method for which x' = `rate` x does not grow, s. In the left half-plane the
+/// stability region is star-shaped, contains the half disc |z| < 2.6 and lies within |z| = 3.
 pub(super) fn rk4_reach(rate: &Complex<f64>) -> f64 {
     let growth = |h: f64| {
         let z = rate * h;
@@ -33,8 +33,8 @@ pub(super) fn rk4_reach(rate: &Complex<f64>) -> f64 {
     longest(3.0 / rate.modulus(), |h| h * rate.modulus() < 2.6 || growth(h).modulus() <= 1.0)
 }
 
-/// Returns the longest stable step of velocity Verlet for a first-order state, s. It is the Adams–Bashforth method of order 2 there: the
-/// roots of ξ² - (1 + 3z/2) ξ + z/2 must be in the unit circle; for a real decay up to z = -1. For a growing state it returns 1/|λ|.
+/// Returns the longest stable step of velocity Verlet for a first-order state, s; the method is then Adams–Bashforth of order 2. The roots
+/// of ξ² - (1 + 3z/2) ξ + z/2 must be in the unit circle: for a real decay, z ≥ -1. For a growing state the limit is 1/|λ|.
 fn verlet_reach(rate: &Complex<f64>) -> f64 {
     let most = 1.0 / rate.modulus();
     if rate.re >= 0.0 {
@@ -48,7 +48,7 @@ fn verlet_reach(rate: &Complex<f64>) -> f64 {
     })
 }
 
-/// Returns the largest h up to `most` for which `stable` holds, if it holds in an interval from 0.
+/// Returns the largest h up to `most` for which `stable` holds, if the stable values are an interval from 0.
 pub(super) fn longest(most: f64, stable: impl Fn(f64) -> bool) -> f64 {
     let (mut good, mut bad) = (0.0, most);
     for _ in 0..HALVINGS {

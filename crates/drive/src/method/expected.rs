@@ -1,8 +1,8 @@
-//! Prediction of the methods of a run.
+//! Prediction of the integration methods of a run.
 //!
-//! The functions of the run are called for artificial states. In these, contacts are in partial slip, in gross slip, growing or
-//! open, and waveforms on linear or curved pieces. Intervals that the model cannot have, such as flight of a contact that is
-//! always pressed, are omitted.
+//! The functions that choose methods in a run are called for artificial states. In these states, contacts are in partial slip, in gross
+//! slip, growing or open, and waveforms are on linear or curved pieces. Intervals that the model cannot have, such as flight of a contact
+//! that is always pressed, are omitted.
 
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
 use crate::contact::{Contact, Mode, Motion};
@@ -13,24 +13,24 @@ use crate::state::State;
 use crate::{Accuracy, Stepper, Waveform};
 use stickslip_contact::{Apex, Course, Memory, Segment};
 
-/// Methods and treatments that may occur in a run, each with its reason.
+/// Integration methods and treatments of contacts that may occur in a run, each with its reason.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expected {
-    /// Methods, by decreasing share of the work.
+    /// Integration methods, by decreasing share of the computing time.
     pub methods: Vec<(Method, Why)>,
-    /// Treatments of each contact.
+    /// Possible treatments of each contact in intervals between events.
     pub contacts: Vec<Vec<(Treatment, Why)>>,
 }
 
-/// Number of pieces of a waveform that are searched for one of each kind.
+/// Number of first pieces of a waveform that are searched for a linear and a curved one.
 const PIECES: u32 = 8;
 
-/// Artificial state of all contacts.
+/// Artificial state of all contacts, for the prediction.
 #[derive(Clone, Copy)]
 struct Phase {
-    /// Displacement of contacts with constant load, in u_c: partial or gross slip.
+    /// Displacement of contacts with constant load, in u_c: partial slip below 1, else gross slip.
     dragged: f64,
-    /// Motion of contacts with varying normal load.
+    /// Direction of motion of contacts with varying normal load.
     pressed: Course,
 }
 
@@ -51,12 +51,12 @@ const PHASES: [Phase; 8] = {
 };
 
 impl Expected {
-    /// Whether a method may occur.
+    /// Returns whether an integration method may occur in the run.
     pub fn takes(&self, method: Method) -> bool {
         self.methods.iter().any(|(known, _)| *known == method)
     }
 
-    /// Returns the reason of a treatment of a contact, given by its index. None if the treatment cannot occur.
+    /// Returns the reason for a treatment of a contact, given by its index; `None` if the treatment cannot occur.
     pub fn treats(&self, contact: usize, treatment: Treatment) -> Option<Why> {
         let known = self.contacts.get(contact)?.iter().find(|(known, _)| *known == treatment)?;
         Some(known.1)
@@ -76,8 +76,8 @@ impl Expected {
 }
 
 impl Model {
-    /// Returns the methods and treatments that may occur in a run from `start` with a stepper, the most frequent first. Calls the
-    /// functions of the run for one interval of each possible kind.
+    /// Returns the methods and treatments that may occur in a run from `start` with a stepper, the most frequent first. One interval of
+    /// each possible kind is examined by the functions that a run calls.
     pub fn expected(&self, start: &State, stepper: Stepper) -> Expected {
         let mut expected =
             Expected { contacts: vec![Vec::new(); self.contacts.len()], ..Expected::default() };
@@ -117,7 +117,7 @@ impl Model {
         expected
     }
 
-    /// Adds method and treatments of an interval that begins in a state.
+    /// Adds the integration method and the treatments of an interval that begins in a given state.
     fn ask<'a>(&'a self, scene: &SceneTraits, state: &State, swing: &mut Swing<'a>, expected: &mut Expected) {
         let mut interval = Interval::of(self);
         interval.begin(self, state);
@@ -135,7 +135,7 @@ impl Model {
         }
     }
 
-    /// Returns the initial state with all contacts in a phase and waveforms on pieces of one kind, where possible.
+    /// Returns the initial state with all contacts in an artificial phase and waveforms on pieces of one kind, where possible.
     fn state_in(&self, start: &State, phase: Phase, straight: bool) -> State {
         let mut state = start.clone();
         state.pieces = self.waveforms.iter().map(|waveform| piece(waveform, straight)).collect();
@@ -158,12 +158,12 @@ impl Model {
         state
     }
 
-    /// Whether contact `c` can be open.
+    /// Returns whether contact `c` can be open.
     fn can_part(&self, start: &State, c: usize) -> bool {
         self.indentations(start, c).is_none_or(|d| d.least <= 0.0)
     }
 
-    /// Returns the memory of a contact after a displacement `by`, in u_c, to its present position.
+    /// Returns the slip memory of a contact after a displacement `by`, in u_c, to its present position.
     fn dragged(&self, contact: &Contact, state: &State, by: f64) -> Memory {
         let (d, way) = (contact.natural.depth, by * contact.natural.displacement);
         let equations = Equations::on(self, state, self.layout(), false);
@@ -176,13 +176,13 @@ impl Model {
 }
 
 impl Contact {
-    /// Whether its force can have a singular moment, with a power 3/2 of time: at a touch, or where gross slip begins.
+    /// Returns whether the contact's force can vary with the power 3/2 of time (singular moment): at a touch, or where gross slip begins.
     fn ends_singularly(&self) -> bool {
         !self.is_never_pressed() && (self.coupling().is_some() || !self.inert && self.engine.branches())
     }
 }
 
-/// Returns one of a waveform's first pieces that is linear or curved, as requested; its first one if there is none.
+/// Returns the first linear or curved piece of a waveform, as requested; the waveform's first piece if there is no such piece.
 fn piece(waveform: &Waveform, straight: bool) -> crate::Piece {
     let first = waveform.piece_at(0.0);
     let mut piece = first;

@@ -1,15 +1,15 @@
-//! Counts of methods and treatments in a run.
+//! Counts of integration methods and treatments of contacts in a run.
 //!
-//! One count per accepted step, and one per contact and interval. The counts are part of the state and continue when a run is resumed.
+//! Each accepted step counts once for its method, each interval once for every contact. A resumed run continues the counts.
 
 use super::{Method, Treatment};
 use stickslip_contact::Words;
 
-/// Number of uses of each method and treatment.
+/// Number of uses of each integration method and of each treatment of contacts.
 #[derive(Debug, PartialEq, Eq, Default)]
 pub struct Tally {
     methods: [u64; Method::ALL.len()],
-    /// Counts by contact.
+    /// Number of intervals by contact and treatment.
     treatments: Vec<[u64; Treatment::ALL.len()]>,
 }
 
@@ -41,7 +41,7 @@ impl Method {
         Self::AskedFor,
     ];
 
-    /// Returns the name for reports.
+    /// Returns the name of the method in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Walk => "steps along the path",
@@ -65,12 +65,12 @@ impl Treatment {
 }
 
 impl Tally {
-    /// Returns zero counts for a number of contacts.
+    /// Returns counts of zero for a number of contacts.
     pub(crate) fn of(contacts: usize) -> Self {
         Self { methods: Default::default(), treatments: vec![Default::default(); contacts] }
     }
 
-    /// Resets the counts, reusing the memory.
+    /// Resets the counts and reuses the allocated memory.
     pub(crate) fn clear(&mut self, contacts: usize) {
         self.methods = Default::default();
         self.treatments.clear();
@@ -83,7 +83,7 @@ impl Tally {
         self.treatments.iter().for_each(|counts| words.extend(counts));
     }
 
-    /// Reads the counts for a number of contacts. None if they are incomplete.
+    /// Reads the counts for a number of contacts; `None` if they are incomplete.
     pub(crate) fn read(contacts: usize, words: &mut Words<'_>) -> Option<Self> {
         let mut tally = Self::of(contacts);
         let treatments = tally.treatments.iter_mut().flatten();
@@ -93,7 +93,7 @@ impl Tally {
         Some(tally)
     }
 
-    /// Returns the number of steps by a method.
+    /// Returns the number of steps by an integration method.
     pub fn steps(&self, method: Method) -> u64 {
         self.methods[method as usize]
     }

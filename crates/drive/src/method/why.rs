@@ -1,19 +1,19 @@
-//! Reasons for methods and treatments.
+//! Reasons for integration methods and for treatments of contacts.
 
 use std::fmt;
 
-/// Reason for a method or a treatment. Its text is for reports.
+/// Reason for an integration method or a treatment of a contact. The displayed text is for reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Why {
     /// No coordinate is free.
     NothingFree,
-    /// Coordinates are balanced.
+    /// Coordinates are quasi-static ("balanced").
     Balanced,
-    /// Single slider with contacts whose energy has a closed form, all with the same linear prescribed motion.
+    /// A single slider has contacts whose energy has a closed form, all with the same linear prescribed motion.
     OneQuadrature,
-    /// Gross slip or flight under constant loads.
+    /// All forces are constant: gross slip or flight under constant loads.
     ConstantForces,
-    /// An oscillation at rest, or without turning points.
+    /// The motion is at rest or has no turning points.
     AtRest,
     /// No force depends on a velocity.
     NoVelocities,
@@ -21,37 +21,37 @@ pub enum Why {
     Damper,
     /// The damping force of sticking springs depends on a velocity.
     ContactDamping,
-    /// Damped springs may stick and slip alternately, so that events accumulate.
+    /// Damped contact springs may stick and slip alternately, so that events accumulate.
     Turns,
     /// The power of a varying load depends on a velocity.
     VaryingLoad,
-    /// The force of a contact that grows in full stick depends on its path.
+    /// The force of a contact that grows in full stick depends on the path of the contact.
     Growth,
-    /// A damper, damped springs or a block decay much faster than all other motions.
+    /// Motions of a damper, damped contact springs or a block decay much faster than all other motions.
     Stiff,
     /// A block has states.
     Block,
-    /// An event is near.
+    /// An event is near and would cut a longer step.
     NearEvent,
-    /// A force has a power 3/2 of time at one end of the step.
+    /// A force varies with the power 3/2 of time at one end of the step.
     SingularMoment,
-    /// The stepper was requested.
+    /// The user requested this stepper.
     AskedFor,
     /// The contact is never pressed.
     NeverPressed,
     /// The contact is open.
     OnlyTheGap,
-    /// One edge slips along one piece of memory.
+    /// Slip spreads from the contact edge along one segment of the slip memory.
     OneEdge,
     /// The prescribed motion has no closed form.
     CurvedFollower,
     /// The indentation varies.
     VaryingIndentation,
-    /// Without friction there is no memory.
+    /// The contact has no friction and thus no slip memory.
     NoFriction,
-    /// The forces of a row of springs are linear until a spring changes.
+    /// The forces of a row of springs are linear until a spring changes its state.
     BetweenSprings,
-    /// The memory computes the full force law.
+    /// The slip memory computes the full force law.
     WholeLaw,
 }
 

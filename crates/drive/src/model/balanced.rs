@@ -1,13 +1,13 @@
-//! Balanced (massless) coordinates, whose position satisfies a balance of forces.
+//! Quasi-static (massless, "balanced") coordinates, whose position satisfies a balance of forces.
 //!
-//! A balanced coordinate has no inertia: its value is the equilibrium of forces at each time. Bodies on it have a prescribed motion. Signals are numbered: waveforms, then blocks, then
-//! balanced coordinates. Along each of them
+//! A quasi-static coordinate has no inertia: its value is the equilibrium of forces at each time. For contacts it acts like a prescribed
+//! motion. Signals are numbered in the order waveforms, blocks, quasi-static coordinates. Each quasi-static coordinate q satisfies
 //!
 //! k q + Σ a F(a q + rest) = P(t),
 //!
-//! with the stiffness k of springs (N/m), the forces F of contacts whose u or d contains a q (a = ±1), and the load P (N). P
-//! contains loads and forces of the other ends of springs. Bodies without a contact are eliminated when the model is built: their
-//! loads act through their springs, and their position follows from that of the contact.
+//! with the stiffness k of springs (N/m), the forces F of contacts whose u or d contains a q (a = ±1), and the load P (N). P contains loads
+//! and forces of the other ends of springs. Coordinates without a contact are eliminated when the model is built. Their loads act through
+//! springs, and their position follows from the coordinates with contacts.
 
 mod reduced;
 
@@ -18,42 +18,42 @@ use crate::scene::{self, Axis, Freedom, Scene, Varying};
 use crate::{Field, Part, SceneError, SceneFault, Waveform};
 pub(super) use reduced::{assign, springs};
 
-/// Balanced coordinate.
+/// Quasi-static ("balanced") coordinate of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Balanced {
     pub(crate) body: usize,
     /// Axis, x or z.
     pub(crate) axis: Axis,
-    /// Position at t = 0, m. Along x it is the reference position, from which contacts count; the loads of t = 0 then move it in
-    /// zero time. Along z it is the balanced position.
+    /// Position at t = 0, m. Along z this is the equilibrium position. Along x it is the reference position for contacts; the loads of t =
+    /// 0 then move the coordinate from this position in zero time.
     pub(crate) first: f64,
-    /// Contacts that act along it, with the coefficient a in their u or d, 1 or -1.
+    /// Contacts that act along the coordinate, with its coefficient (1 or -1) in their u or d.
     pub(crate) contacts: Vec<(usize, f64)>,
     /// Stiffness of the springs, N/m; 1 for a coordinate without contacts.
     pub(crate) stiffness: f64,
-    /// Load that does not depend on contacts, N; the position (m) for a coordinate without contacts.
+    /// Load that does not depend on contacts, N; for a coordinate without contacts this is its position, m.
     pub(crate) pull: Pull,
-    /// Balanced coordinates that move a coordinate without contacts, with their factors.
+    /// Coordinates with contacts that move this coordinate if it has no contacts, with their factors.
     pub(crate) led: Vec<(usize, f64)>,
-    /// Its own load, before the elimination of others.
+    /// Load on the coordinate itself, before the elimination of other coordinates.
     pub(crate) own: Pull,
-    /// Index among the states that hold its position while one of its contacts grows.
+    /// Index of the state that stores the position while one of the coordinate's contacts grows in full stick.
     pub(crate) slot: Option<usize>,
 }
 
-/// Sum of loads and link forces.
+/// Sum of loads and spring forces on a quasi-static coordinate.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Pull {
-    /// Constant loads.
+    /// Sum of constant loads, N.
     pub(crate) force: f64,
     /// Loads that follow waveforms, with their factors.
     pub(crate) loads: Vec<(usize, f64)>,
-    /// Springs and stacks with the rest of their elongation, and their factors.
+    /// Springs and actuators with the remaining part of their elongation, and their factors.
     pub(crate) links: Vec<(Link, f64)>,
 }
 
 impl Pull {
-    /// Adds a multiple of another sum.
+    /// Adds a multiple of another sum of loads.
     fn add(&mut self, other: &Self, factor: f64) {
         if factor == 0.0 {
             return;
@@ -63,7 +63,7 @@ impl Pull {
         self.links.extend(other.links.iter().map(|(link, a)| (link.clone(), factor * a)));
     }
 
-    /// Returns the largest magnitude over the ranges of the waveforms, N.
+    /// Returns the largest magnitude of the sum over the ranges of the waveforms, N.
     pub(super) fn widest(&self, range: impl Fn(usize) -> (f64, f64)) -> f64 {
         let wide = |w: usize| {
             let (low, high) = range(w);
@@ -82,9 +82,9 @@ impl Pull {
     }
 }
 
-/// Adds a balanced coordinate of a body and returns its binding. `known` is the number of other signals.
+/// Adds a quasi-static coordinate of a body and returns its binding. `known` is the number of waveforms and blocks.
 ///
-/// Fails for a pitch, and for a body with a mass.
+/// Fails for a pitch coordinate, and for a body with a mass.
 pub(super) fn bind(
     (place, body): (usize, &scene::Body),
     axis: Axis,
@@ -112,7 +112,7 @@ pub(super) fn bind(
     Ok(Binding::Driven(known + all.len() - 1))
 }
 
-/// Time step of numerical differentiation, relative to the shortest waveform.
+/// Time step of numerical differentiation, relative to the extent of the shortest waveform.
 const MOMENT: f64 = 1e-5;
 
 /// Returns the time step of numerical differentiation, s.
@@ -122,7 +122,7 @@ pub(super) fn moment(waveforms: &[Waveform]) -> f64 {
 }
 
 impl Model {
-    /// Returns the smallest energy that a balanced coordinate can store, J: of a contact at its natural depth, or of a spring
+    /// Returns the smallest energy that a quasi-static coordinate can store, J: in a contact at its natural indentation, or in a spring
     /// under the largest load.
     pub(super) fn stored_scale(&self) -> Option<f64> {
         let range = |w: usize| self.signals().range(w);
@@ -141,15 +141,15 @@ impl Model {
         self.balanced.iter().map(of).filter(|work| work.is_normal()).reduce(f64::min)
     }
 
-    /// Returns the rounding of the work of loads that springs hold, J.
+    /// Returns the rounding error of the work of loads that springs hold, J.
     pub(crate) fn balanced_rounding(&self) -> f64 {
         let held = self.balanced.iter().filter(|b| b.stiffness > 0.0 && !b.contacts.is_empty());
         let stored = held.map(|b| b.pull.widest(|w| self.signals().range(w)).powi(2) / b.stiffness);
         f64::EPSILON * stored.filter(|work| work.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Sets the stroke of contacts that one balanced coordinate moves while they stick: its largest load divided by the stiffness
-    /// of springs and contact.
+    /// Sets the stroke of contacts that one quasi-static coordinate moves while they stick: its largest load divided by the stiffness of
+    /// springs and contact.
     pub(super) fn sweep_balanced(&mut self) {
         let pulls: Vec<f64> =
             self.balanced.iter().map(|b| b.pull.widest(|w| self.signals().range(w))).collect();
@@ -166,7 +166,7 @@ impl Model {
         }
     }
 
-    /// Sets balanced coordinates along z to their position at t = 0.
+    /// Sets quasi-static coordinates along z to their equilibrium position at t = 0.
     pub(super) fn settle_balanced(&mut self) {
         if self.balanced.iter().all(|b| b.axis != Axis::Z) {
             return;
@@ -183,7 +183,7 @@ impl Model {
     }
 }
 
-/// Refuses balanced coordinates together with free coordinates or blocks.
+/// Returns an error if a model has quasi-static coordinates together with free coordinates or blocks.
 pub(super) fn check_company(scene: &Scene) -> Result<(), SceneError> {
     let balanced = scene.bodies.iter().enumerate().find_map(|(i, body)| {
         let of = |(_, c): &(Axis, scene::Coordinate)| c.freedom == Freedom::Balanced;
@@ -200,7 +200,7 @@ pub(super) fn check_company(scene: &Scene) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Adds loads to balanced coordinates; `first` is the signal of the first. Moments are carried by the guide of the pitch.
+/// Adds external loads to quasi-static coordinates; `first` is the signal index of the first coordinate. Guides of the pitch carry moments.
 pub(super) fn load(scene: &Scene, bodies: &[Body], (first, all): (usize, &mut [Balanced])) {
     for load in &scene.loads {
         let [x, z, _] = bodies[load.on].bindings;
@@ -215,7 +215,7 @@ pub(super) fn load(scene: &Scene, bodies: &[Body], (first, all): (usize, &mut [B
     }
 }
 
-/// Splits a measure into its terms of balanced coordinates and the rest.
+/// Splits a linear form into its terms of quasi-static coordinates and the rest.
 fn split(measure: &Measure, first: usize) -> (Vec<(usize, f64)>, Measure) {
     let own = measure.driven.iter().filter(|(s, _)| *s >= first).map(|(s, a)| (s - first, *a)).collect();
     let mut rest = measure.clone();
@@ -223,12 +223,12 @@ fn split(measure: &Measure, first: usize) -> (Vec<(usize, f64)>, Measure) {
     (own, rest)
 }
 
-/// Whether a measure depends on a balanced coordinate.
+/// Returns whether a linear form depends on a quasi-static coordinate.
 fn is_balanced(measure: &Measure, first: usize) -> bool {
     measure.driven.iter().any(|(signal, _)| *signal >= first)
 }
 
-/// Refuses dampers on balanced coordinates: the position would depend on its past.
+/// Returns an error for a damper on a quasi-static coordinate, because the position would depend on its past.
 pub(super) fn check_dampers(
     scene: &Scene,
     (links, contacts): (&[Link], &[Contact]),
@@ -253,7 +253,7 @@ pub(super) fn check_dampers(
     Ok(())
 }
 
-/// Returns the measure of a contact along an axis in which it exerts a force.
+/// Returns the displacement (u or d) of a contact along an axis, as a linear form, if the contact exerts a force along this axis.
 fn measure_of(contact: &Contact, axis: Axis) -> Option<&Measure> {
     match axis {
         Axis::X => (!contact.inert).then_some(&contact.u),

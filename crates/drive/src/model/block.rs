@@ -1,7 +1,7 @@
 //! Blocks of a model, connected to their inputs.
 //!
-//! Signals are numbered: waveforms, then blocks. A block may read only earlier blocks, which excludes cycles. The number of
-//! inputs and states is limited, so evaluations need no heap.
+//! Signals are numbered in the order waveforms, blocks. A block may read only earlier blocks, which excludes cycles. The number of inputs
+//! and states is limited, so evaluations need no heap.
 
 use super::{Balanced, Body, Measure, Model};
 use crate::component::{Block, Input, Moment, SharedBlock, Standing, States};
@@ -17,15 +17,15 @@ pub(crate) struct Wired {
     pub(crate) name: String,
     block: SharedBlock,
     pub(crate) wires: Vec<Wire>,
-    /// Index of its first state among those of all blocks.
+    /// Index of the block's first state among the states of all blocks.
     pub(crate) first: usize,
     pub(crate) states: States,
 }
 
-/// Source of an input.
+/// Source of a block's input.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Wire {
-    /// Signal by index: waveforms first, then blocks.
+    /// Signal by its index: waveforms first, then blocks.
     Signal(usize),
     /// Length between bodies.
     Length(Measure),
@@ -49,18 +49,18 @@ impl Wired {
         &*self.block.0
     }
 
-    /// Whether it has states or efforts; otherwise only its signal is evaluated.
+    /// Returns whether the block has states or efforts; otherwise only its signal is evaluated.
     pub(crate) fn acts(&self) -> bool {
         self.count() > 0 || self.wires.iter().any(|wire| matches!(wire, Wire::Length(_)))
     }
 
-    /// Returns the number of its states.
+    /// Returns the number of the block's states.
     pub(crate) fn count(&self) -> usize {
         self.states.scales.len()
     }
 }
 
-/// Signals that bodies and strokes may follow: waveforms, then outputs of blocks, then balanced coordinates.
+/// Signals that bodies and strokes may follow: waveforms, then outputs of blocks, then quasi-static coordinates.
 #[derive(Clone, Copy)]
 pub(crate) struct Signals<'a> {
     pub(crate) waveforms: &'a [Waveform],
@@ -69,7 +69,7 @@ pub(crate) struct Signals<'a> {
 }
 
 impl Signals<'_> {
-    /// Returns a signal at t = 0. Lengths are 0 there. Blocks read earlier signals only, so the recursion ends.
+    /// Returns the value of a signal at t = 0, where lengths between bodies are 0. Blocks read earlier signals only, so the recursion ends.
     pub(crate) fn first(&self, signal: usize) -> Sample {
         if let Some(balanced) = self.balanced(signal) {
             return Sample { value: balanced.first, rate: 0.0, acceleration: 0.0 };
@@ -92,7 +92,7 @@ impl Signals<'_> {
 
     /// Returns the smallest and the largest value of a signal.
     ///
-    /// For a block they follow from the ranges of its inputs; a length is unbounded. For a balanced coordinate they are its
+    /// For a block these values follow from the ranges of its inputs; a length is unbounded. For a quasi-static coordinate both are the
     /// initial position.
     pub(crate) fn range(&self, signal: usize) -> (f64, f64) {
         if let Some(balanced) = self.balanced(signal) {
@@ -106,7 +106,7 @@ impl Signals<'_> {
         block.block().range(&block.wires.iter().map(of).collect::<Vec<_>>())
     }
 
-    /// Whether a signal jumps: a waveform by its shape, a block if it passes on jumps.
+    /// Returns whether a signal jumps: a waveform by its shape, a block if it passes on jumps of its inputs.
     pub(crate) fn has_jumps(&self, signal: usize) -> bool {
         match self.block(signal) {
             Some(block) if block.block().passes_jumps() => {
@@ -117,7 +117,7 @@ impl Signals<'_> {
         }
     }
 
-    /// Returns the balanced coordinate of a signal. None for other signals.
+    /// Returns the quasi-static coordinate of a signal; `None` for other signals.
     pub(crate) fn balanced(&self, signal: usize) -> Option<&'_ Balanced> {
         signal.checked_sub(self.waveforms.len() + self.blocks.len()).and_then(|b| self.balanced.get(b))
     }
@@ -136,8 +136,8 @@ impl Model {
 
 /// Connects blocks to their inputs.
 ///
-/// Fails if a block reads a later or nonexistent signal, has more than [`MOST`] inputs or states, or reads a length while bodies
-/// start in equilibrium.
+/// Fails if a block reads a later or nonexistent signal, or has more than [`MOST`] inputs or states. Also fails if a block reads a length
+/// while bodies start in equilibrium.
 pub(super) fn wire(scene: &Scene, bodies: &[Body]) -> Result<Vec<Wired>, SceneError> {
     let mut wired: Vec<Wired> = Vec::with_capacity(scene.blocks.len());
     let mut first = 0;

@@ -1,7 +1,7 @@
 //! Construction of a [`Model`] from a [`Scene`]: bodies, links and loads.
 //!
-//! The steps are, in order: checks, bodies and coordinates, links, blocks and contacts. Their lengths become measures, constant
-//! rows of the Jacobian. Then parts without effect are removed, and natural scales computed.
+//! The steps are, in order: checks, bodies and coordinates, links, blocks and contacts. Displacements between bodies become constant rows
+//! of the Jacobian. Then parts without effect are removed, and natural scales computed.
 
 use super::contact::{self, Surroundings};
 use super::{
@@ -12,7 +12,7 @@ use crate::linearised::Paces;
 use crate::scene::{self, Axis, Coordinate, Direction, Freedom, Named, Point, Scene, Side, Start, Varying};
 use crate::{Field, Part, SceneError, SceneFault};
 
-/// Scratch memory of the construction, reused for the next model.
+/// Scratch memory of the construction of a model, reused for the next model.
 #[derive(Debug, Default)]
 pub(crate) struct Scaffold {
     /// Largest indentation of each contact, m.
@@ -27,20 +27,20 @@ pub(crate) struct Scaffold {
 }
 
 impl Model {
-    /// Checks a [`Scene`] and computes its constants.
+    /// Checks a [`Scene`] and computes the constants of the model.
     ///
     /// # Errors
     ///
-    /// [`SceneError`]: the first fault, with part and field. Faults are numbers out of range, references to missing parts,
-    /// coordinates that nothing holds, and dampers that would have to follow a jump, for example.
+    /// [`SceneError`]: the first fault, with part and field. Faults are, for example, numbers out of range, references to missing parts,
+    /// coordinates that nothing holds, and dampers that would have to follow a jump.
     pub fn new(scene: &Scene) -> Result<Self, SceneError> {
         let mut model = Self::blank();
         model.rebuild(scene, &mut Scaffold::default())?;
         Ok(model)
     }
 
-    /// Becomes the model of another [`Scene`] and reuses the memory. Nothing is allocated for one of the same structure with one
-    /// free coordinate. After an error the model is invalid, but can be rebuilt.
+    /// Rebuilds this model from another [`Scene`] and reuses the memory. If the structure is the same, with one free coordinate, nothing is
+    /// allocated. After an error the model is invalid, but can be rebuilt.
     pub(crate) fn rebuild(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         check::check(scene)?;
         (self.fastest, self.stiff, self.growing) = (0.0, false, 0);
@@ -85,7 +85,7 @@ impl Model {
         self.waveforms.extend(scene.waveforms[known..].iter().map(|named| named.part.clone()));
     }
 
-    /// Builds the contacts, their largest indentations and the largest forces on free coordinates.
+    /// Builds the contacts, and computes their largest indentations and the largest forces on free coordinates.
     fn put_contacts(&mut self, scene: &Scene, room: &mut Scaffold) -> Result<(), SceneError> {
         let mut contacts = std::mem::take(&mut self.contacts);
         room.names.clear();
@@ -121,10 +121,10 @@ impl Model {
         Ok(())
     }
 
-    /// Builds the bodies with their free and balanced coordinates.
+    /// Builds the bodies with their free and quasi-static coordinates.
     ///
-    /// On an incline α gravity g gives -mg sin α along x and -mg cos α along z. Fails if a free coordinate has no mass or moment
-    /// of inertia.
+    /// On an incline of angle α, gravity g gives the forces -mg sin α along x and -mg cos α along z. Fails if a free coordinate has no mass
+    /// or moment of inertia.
     fn gather(&mut self, scene: &Scene) -> Result<(), SceneError> {
         let nowhere = || Body { name: String::new(), bindings: [Binding::Held(0.0); 3] };
         self.bodies.resize_with(scene.bodies.len(), nowhere);
@@ -156,8 +156,8 @@ impl Model {
         Ok(())
     }
 
-    /// Adds constant loads to free coordinates and stores the varying ones. Guides carry loads on other coordinates. A force at
-    /// (X, Z) from the reference point has the moment X F_z - Z F_x.
+    /// Adds constant loads to free coordinates and stores the varying loads. Guides carry loads on other coordinates. A force at (X, Z)
+    /// from the reference point has the moment X F_z - Z F_x.
     fn put_loads_on(&mut self, scene: &Scene) {
         self.loads.clear();
         for load in &scene.loads {
@@ -182,13 +182,13 @@ impl Model {
     }
 }
 
-/// Returns a free coordinate. One along x may move its origin until a link is found on it; scales are assigned later.
+/// Returns a free coordinate. Along x its origin may move until a spring is found that acts on it; natural scales are assigned later.
 fn free_coordinate(body: usize, axis: Axis, mass: f64, force: f64, coordinate: Coordinate) -> Free {
     let start = (coordinate.position, coordinate.velocity);
     Free { body, axis, mass, mobility: 1.0 / mass, force, start, travels: axis == Axis::X, scale: (0.0, 0.0) }
 }
 
-/// Returns mass or moment of inertia of a free coordinate. Fails if it is missing.
+/// Returns mass or moment of inertia of a free coordinate. Fails if the value is missing.
 fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneError> {
     let value = match axis {
         Axis::X | Axis::Z => body.mass,
@@ -197,8 +197,8 @@ fn inertia(place: usize, body: &scene::Body, axis: Axis) -> Result<f64, SceneErr
     value.ok_or_else(|| SceneFault::NoInertia(axis).of(Part::Body(place), Field::Whole))
 }
 
-/// Adds springs and then actuators. Their elongation is the displacement of the second side minus that of the first; a spring is
-/// an actuator with zero stroke.
+/// Adds springs and then actuators. The elongation is the displacement of the second side minus that of the first; a spring is stored as an
+/// actuator with zero stroke.
 fn gather_links(scene: &Scene, bodies: &[Body], links: &mut Vec<Link>) {
     let elongation = |sides: [Side; 2], at: [Point; 2], direction: Direction| {
         Measure::between([(sides[1], at[1]), (sides[0], at[0])], direction, bodies)
@@ -224,7 +224,7 @@ fn gather_links(scene: &Scene, bodies: &[Body], links: &mut Vec<Link>) {
     links.extend(springs.chain(actuators));
 }
 
-/// Returns the parts without effect, except waveforms.
+/// Returns the springs, actuators and loads without effect.
 fn spared(scene: &Scene, bodies: &[Body], links: &[Link]) -> Spared {
     let mut spared = Spared { loads: spared_loads(scene, bodies), ..Spared::default() };
     for (i, _) in links.iter().enumerate().filter(|(_, link)| !link.acts()) {

@@ -1,6 +1,6 @@
 //! Checks of a [`Scene`]: references and ranges of numbers.
 //!
-//! The contact crate checks the physics of a single contact. Model construction checks conditions that involve several parts.
+//! The crate `stickslip_contact` checks the physics of a single contact. Model construction checks conditions that involve several parts.
 
 use crate::scene::{Axis, Contact, ContactStart, Freedom, Normal, Point, Scene, Side, Varying};
 use crate::{Field, Part, SceneError, SceneFault};
@@ -93,7 +93,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    /// Checks that both sides exist and differ.
+    /// Checks that both sides of a contact or spring exist and differ.
     fn between(&self, sides: [Side; 2]) -> Result<(), SceneFault> {
         for side in sides {
             if let Side::Body(i) = side {

@@ -1,8 +1,8 @@
 //! Construction of a contact's constants.
 //!
-//! The normal load comes first. The largest expected indentation shows whether the contact can carry a force. It determines the
-//! width of a row of springs and the natural scales. Then follow the engine and the initial displacement. Indices of growing
-//! contacts and natural scales follow when all contacts are known.
+//! First the normal load is built. The largest expected indentation shows whether the contact can carry a force, and determines the width
+//! of a row of springs and the natural scales. The engine (memory curve or row of springs) and the initial displacement follow. Indices of
+//! growing contacts and natural scales are set when all contacts are known.
 
 use super::reach::{self, Pile};
 use super::{Body, Free, Link, Load, Measure, Signals};
@@ -22,7 +22,7 @@ pub(super) struct Surroundings<'a> {
     pub(super) free: &'a [Free],
     pub(super) links: &'a [Link],
     pub(super) loads: &'a [Load],
-    /// Free z coordinates of other bodies that contacts connect with each free coordinate; their weight may rest on it.
+    /// Free z coordinates of other bodies that contacts connect with each free coordinate; the weight of these bodies may rest on it.
     pub(super) piled: &'a [Vec<usize>],
     /// Whether the bodies start in equilibrium.
     pub(super) equilibrium: bool,
@@ -31,24 +31,24 @@ pub(super) struct Surroundings<'a> {
 /// Known properties of the normal load.
 #[derive(Debug, Clone, Copy)]
 struct Pressed {
-    /// Largest indentation, m; an estimate from initial loads and motions for a coupled contact.
+    /// Largest indentation, m; for a coupled contact an estimate from initial loads and motions.
     deepest: f64,
     /// Indentation at t = 0, m.
     first: f64,
-    /// Normal force at t = 0, N, exactly as given where it is given.
+    /// Normal force at t = 0, N; identical to the input value if the input is a force.
     force: f64,
 }
 
-/// Ratio of friction limit to other forces below which friction is lost in rounding.
+/// Ratio of friction limit to other forces below which the friction force is lost in rounding.
 const UNRESOLVED: f64 = 1e-12;
 
-/// Largest number of times that a row is widened.
+/// Largest number of times that a row of springs is widened.
 const WIDENED: usize = 16;
 
-/// Field and fault of a contact.
+/// Field of a contact and fault in it.
 type Refused = (Field, SceneFault);
 
-/// Returns a contact without name, index of growth and scales, and its largest indentation.
+/// Returns the constants of a contact, and its largest indentation. Name, growth index and natural scales are set later.
 pub(super) fn build(
     place: usize,
     part: &scene::Contact,
@@ -92,13 +92,13 @@ pub(super) fn build(
 }
 
 impl Surroundings<'_> {
-    /// Whether a measure depends on a balanced coordinate.
+    /// Returns whether a linear form depends on a quasi-static coordinate.
     pub(super) fn is_balanced(&self, measure: &Measure) -> bool {
         measure.driven.iter().any(|(signal, _)| self.signals.balanced(*signal).is_some())
     }
 
-    /// Whether the friction limit is below the rounding of other forces on its bodies. These are loads, and forces of sticking
-    /// contacts at displacements as large as the waveforms.
+    /// Returns whether the friction limit is below the rounding of other forces on the contact's bodies. These forces are loads, and forces
+    /// of sticking contacts at displacements as large as the waveforms.
     fn is_rounding(&self, law: &Interface, count: f64, (u, deepest): (&Measure, f64)) -> bool {
         if law.friction() == 0.0 || deepest <= 0.0 {
             return false;
@@ -114,7 +114,7 @@ impl Surroundings<'_> {
         count * law.friction() * law.normal_force(deepest) < UNRESOLVED * force
     }
 
-    /// Returns the coupled contacts of the model: interface, count and indentation.
+    /// Returns interface, count and indentation of all coupled contacts of the model.
     fn pressed(&self) -> impl Iterator<Item = (&Interface, f64, Measure)> {
         let coupled = self.contacts.iter().map(|named| &named.part);
         coupled
@@ -122,16 +122,16 @@ impl Surroundings<'_> {
             .map(|part| (&part.interface, f64::from(part.count.max(1)), indentation(part, self.bodies)))
     }
 
-    /// Returns a measure at t = 0.
+    /// Returns the value of a linear form at t = 0.
     pub(super) fn at_start(&self, measure: &Measure) -> f64 {
         measure.value(|i| self.free[i].start.0, |w| self.signals.first(w).value)
     }
 }
 
-/// Returns the engine of a contact: the memory curve, or a row of springs.
+/// Returns the solver of a contact's tangential problem: the slip-memory curve, or a row of springs.
 ///
-/// Without a given span the row has the width of the largest indentation. For a given force it is wide enough to carry that force; for a
-/// coupled contact it covers the largest indentation that the start can cause. Fails if the row is invalid or too narrow at the start.
+/// Without a given span, the row is wide enough for the given force or largest indentation, or for the initial energy of a coupled contact.
+/// Fails if the row is invalid or too narrow at the start.
 fn engine(
     part: &scene::Contact,
     press: &Press,
@@ -162,7 +162,7 @@ fn engine(
     }
 }
 
-/// Returns a row that carries the largest force. A row softer than the profile has a larger indentation and must be wider.
+/// Returns a row of springs that carries the largest force. A row softer than the profile has a larger indentation and must be wider.
 fn bearing(law: &Interface, count: usize, known: Pressed) -> Result<Springs, Refused> {
     let width = |reach: f64| 2.0 * law.profile().radius(reach);
     let mut span = width(known.deepest);
@@ -192,7 +192,7 @@ fn row(law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Sprin
     Err((Field::Span, SceneFault::Narrow { width, span }))
 }
 
-/// Returns the displacement before the start, m.
+/// Returns the displacement u of a contact at the start, m.
 fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, Refused> {
     let d = known.first;
     if part.start != ContactStart::Untouched && d <= 0.0 {
@@ -215,10 +215,10 @@ fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, 
     }
 }
 
-/// Returns the source of the indentation and its known values.
+/// Returns the source of a contact's indentation and its known values.
 ///
-/// The extreme values of a waveform are checked against the profile. The indentation increases with force, radius and
-/// indentation, so the largest value is the deepest.
+/// The extreme values of a waveform are checked against the profile. Indentation increases with force and radius, so the largest value of
+/// the waveform gives the deepest indentation.
 fn press(
     part: &scene::Contact,
     law: &Interface,
@@ -256,7 +256,7 @@ fn press(
     Ok((press, Pressed { deepest: depth(high), first: d, force }))
 }
 
-/// Returns the measure of d of a coupled contact, m.
+/// Returns the indentation d of a coupled contact as a linear form of the coordinates.
 fn indentation(part: &scene::Contact, bodies: &[Body]) -> Measure {
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
     let mut d = Measure::between(ends, Direction::Z, bodies);

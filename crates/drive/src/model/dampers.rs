@@ -1,13 +1,13 @@
-//! Refusal of dampers on lengths that jump, as the impulse is undefined.
+//! Check that no damper acts on a length that jumps, because its impulse would be undefined.
 
 use super::{Link, Measure, Signals, Stroke};
 use crate::contact::Contact;
 use crate::scene::Scene;
 use crate::{Field, Part, SceneError, SceneFault};
 
-/// Refuses dampers of links and contacts whose length jumps.
+/// Returns an error for a spring, actuator or contact with damping whose length jumps.
 ///
-/// Reports the first part, in the order springs, actuators, contacts, and the name of the waveform, also if blocks pass on its jumps.
+/// The error contains the first such part, in the order springs, actuators, contacts, and the waveform that jumps, also through blocks.
 pub(super) fn check(
     scene: &Scene,
     links: &[Link],
@@ -16,7 +16,7 @@ pub(super) fn check(
 ) -> Result<(), SceneError> {
     let jumps = |w: &usize| signals.has_jumps(*w);
     let driven = |length: &Measure| length.driven.iter().map(|(w, _)| *w).find(jumps);
-    // For a block it is the waveform whose jumps it passes on.
+    // For a block, the name is that of the waveform whose jumps the block passes on.
     let name = |signal: usize| match scene.waveform_of(signal) {
         Some(w) => scene.waveforms[w].name.clone(),
         None => scene.blocks[signal - scene.waveforms.len()].name.clone(),

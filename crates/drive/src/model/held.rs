@@ -1,11 +1,11 @@
-//! Check that free coordinates are held.
+//! Check that a contact or spring holds each free coordinate along z and in pitch.
 
 use super::{Free, Link, Measure};
 use crate::contact::Contact;
 use crate::scene::Axis;
 use crate::{Field, Part, SceneError, SceneFault};
 
-/// Refuses a free z or pitch on which no contact, spring or actuator acts. A body that slides freely along x is allowed.
+/// Returns an error for a free z or pitch without contact, spring or actuator. A body that slides freely along x is allowed.
 ///
 /// A frictionless contact acts along d only; a spring without stiffness and damping does not act.
 pub(super) fn check(free: &[Free], contacts: &[Contact], links: &[Link]) -> Result<(), SceneError> {

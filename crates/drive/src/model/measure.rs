@@ -1,27 +1,27 @@
-//! Lengths between bodies as linear forms: the constant Jacobian of the model.
+//! Displacements between bodies as linear forms of the coordinates: the constant Jacobian of the model.
 
 use super::{Binding, Body};
 use crate::scene::{Direction, Point, Side};
 use arrayvec::ArrayVec;
 
-/// Terms of a linear form: index and coefficient. Two sides with an axis and the pitch each give at most four.
+/// Terms of a linear form: index and coefficient. Two bodies, each with one axis and the pitch, give at most four terms.
 pub(crate) type Terms = ArrayVec<(usize, f64), 4>;
 
-/// A length as a linear form of the coordinates: constant + Σ coefficient · coordinate. The coefficients are a row of the
-/// Jacobian, which also distributes a force along the length to the coordinates.
+/// Displacement between bodies as a linear form: constant + Σ coefficient · coordinate. The coefficients are a row of the Jacobian, which
+/// also distributes a force along the displacement to the coordinates.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Measure {
     /// Constant, m.
     pub(crate) constant: f64,
-    /// Free coordinates with their coefficients, 1 or m/rad.
+    /// Indices of free coordinates with their coefficients, 1 or m/rad.
     pub(crate) free: Terms,
-    /// Prescribed signals with their coefficients.
+    /// Indices of prescribed signals with their coefficients.
     pub(crate) driven: Terms,
 }
 
 impl Measure {
-    /// Returns the displacement of `ends[0]` minus that of `ends[1]`, each a point of a side. For small rotations a point at (X,
-    /// Z) moves by x - Zθ along x and by z + Xθ along z.
+    /// Returns the displacement of `ends[0]` minus that of `ends[1]`, each a point of a body or the ground. For small rotations a point at
+    /// (X, Z) moves by x - Zθ along x and by z + Xθ along z.
     pub(super) fn between(ends: [(Side, Point); 2], direction: Direction, bodies: &[Body]) -> Self {
         let mut measure = Self::default();
         for ((side, point), sign) in ends.into_iter().zip([1.0, -1.0]) {
@@ -37,7 +37,7 @@ impl Measure {
         measure
     }
 
-    /// Adds a multiple of a coordinate. A fixed coordinate contributes to the constant; coefficients of the same coordinate are summed.
+    /// Adds a multiple of a coordinate. A fixed coordinate adds to the constant; coefficients of the same coordinate are summed.
     fn add(&mut self, place: Binding, coefficient: f64) {
         if coefficient == 0.0 {
             return;
@@ -58,13 +58,13 @@ impl Measure {
         terms.retain(|(_, sum)| *sum != 0.0);
     }
 
-    /// Whether it never changes.
+    /// Returns whether the linear form never changes.
     pub(crate) fn is_constant(&self) -> bool {
         self.free.is_empty() && self.driven.is_empty()
     }
 
-    /// Returns its value for given coordinates and waveforms: constant + (Σ free + Σ driven), so that large displacements of two
-    /// bodies cancel first.
+    /// Returns the value for given coordinates and waveforms: constant + (Σ free + Σ driven), so that large displacements of two bodies
+    /// cancel first.
     pub(crate) fn value(&self, free: impl Fn(usize) -> f64, driven: impl Fn(usize) -> f64) -> f64 {
         let own: f64 = self.free.iter().map(|(i, a)| a * free(*i)).sum();
         let followed: f64 = self.driven.iter().map(|(w, a)| a * driven(*w)).sum();
@@ -77,7 +77,7 @@ impl Measure {
         self.free.iter().map(|(i, a)| (a * x(*i)).abs()).sum()
     }
 
-    /// Returns Σ coefficient² · mobility over free coordinates, 1/kg: the inverse effective mass along it.
+    /// Returns Σ coefficient² · mobility over free coordinates, 1/kg: the inverse effective mass along the displacement.
     pub(crate) fn mobility(&self, mobility: impl Fn(usize) -> f64) -> f64 {
         self.free.iter().map(|(i, a)| a * a * mobility(*i)).sum()
     }

@@ -5,22 +5,22 @@ use super::{Free, Measure, Stroke};
 use crate::scene::{Axis, Normal, Scene, Side};
 use stickslip_contact::Interface;
 
-/// Indentation for a contact that no initial load presses, m.
+/// Assumed indentation of a contact that no initial load presses, m.
 const SHALLOW: f64 = 1e-9;
-/// Number of bisections between two powers of two.
+/// Number of bisection steps between two powers of two.
 const HALVINGS: u32 = 50;
 /// Safety factor of the expected indentation.
-// It scales tolerances: a larger factor reduces accuracy, a smaller one may make rows of springs too narrow.
+// A larger factor reduces accuracy through the tolerances, a smaller factor may make rows of springs too narrow.
 const MARGIN: f64 = 1.2;
 
-/// Fraction of a profile's extent that limits the width of a row.
+/// Fraction of a profile's extent that limits the width of a row of springs.
 const NEARLY: f64 = 0.9;
 
 /// Returns the largest expected indentation of one of `count` contacts, m.
 ///
-/// An energy balance determines it. Initial kinetic energy ½mḋ² and the work of loads, F(g + d) with the gap g, equal E\*N(d). m
-/// is the effective mass along d, F the largest force of loads, preloads and strokes. Prescribed motions press by their range.
-/// The result is negative if the contact is never pressed. Bodies in equilibrium have neither motion nor height of fall.
+/// The indentation d follows from an energy balance: kinetic energy ½mḋ² plus work F(g + d) of loads equals E\*N(d). g is the gap, m the
+/// effective mass along d, and F the largest force of loads, preloads and strokes. The range of prescribed motions is added. The result is
+/// negative if the contact is never pressed. Bodies in equilibrium have neither motion nor height of fall.
 pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
     let first = around.at_start(d);
     // 0 if only prescribed motions move it.
@@ -50,12 +50,12 @@ pub(super) fn deepest(law: &Interface, count: f64, d: &Measure, around: &Surroun
     if deepest > 0.0 { deepest } else { SHALLOW }
 }
 
-/// Returns the indentation that a row of springs must allow for one of `count` contacts, m. It is at least `deepest`, and covers
+/// Returns the indentation that a row of springs must allow for one of `count` contacts, m. The result is at least `deepest`, and covers
 /// all energy of the connected bodies.
 ///
-/// E\*N(d) ≤ E\*N(d₀) + F(g + d - d₀) + T + V with the initial indentation d₀. F are the forces on all connected bodies, g the
-/// gaps of their contacts. T is their kinetic energy along z and in pitch, V the energy of springs along z and of other contacts.
-/// Motion along x is neglected. Bodies in equilibrium have none of these.
+/// The bound is E\*N(d) ≤ E\*N(d₀) + F(g + d - d₀) + T + V with the initial indentation d₀. F are the forces on all connected bodies, g the
+/// gaps of their contacts. T is the kinetic energy along z and in pitch, V the energy of springs along z and of other contacts. Motion
+/// along x is neglected. Bodies in equilibrium have none of these energies.
 pub(super) fn widest(
     (law, count): (&Interface, f64),
     d: &Measure,
@@ -78,14 +78,14 @@ pub(super) fn widest(
 pub(super) struct Pile {
     /// Kinetic energy along z and in pitch, energy of springs along z and of contacts, J.
     energy: f64,
-    /// Sum of the gaps of their contacts, m.
+    /// Sum of the gaps of the bodies' contacts, m.
     gaps: f64,
-    /// Sum of the largest forces on them along z, N.
+    /// Sum of the largest forces on the bodies along z, N.
     force: f64,
 }
 
 impl Pile {
-    /// Returns the values for the bodies of a coupled contact and all bodies connected with them. `pressed` are the coupled
+    /// Returns energies, gaps and forces for the bodies of a coupled contact and all bodies connected with them. `pressed` are the coupled
     /// contacts of the model.
     pub(super) fn of<'c>(
         d: &Measure,
@@ -124,8 +124,8 @@ impl Pile {
     }
 }
 
-/// Returns the indentation at which one of `count` contacts alone carries all loads of balanced coordinates along z, m; 0 if none
-/// presses it.
+/// Returns the indentation at which one of `count` contacts alone carries all loads of quasi-static coordinates along z, m; 0 if no load
+/// presses the contact.
 fn settled(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) -> f64 {
     if !around.is_balanced(d) {
         return 0.0;
@@ -135,8 +135,8 @@ fn settled(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) 
     if push > 0.0 { law.indentation(push / count) } else { 0.0 }
 }
 
-/// Returns, for each free coordinate, the z coordinates of other bodies that coupled contacts connect with its body. Empty
-/// without coupled contacts.
+/// Returns, for each free coordinate, the z coordinates of other bodies that coupled contacts connect with its body; empty without coupled
+/// contacts.
 pub(super) fn piled(scene: &Scene, free: &[Free]) -> Vec<Vec<usize>> {
     if scene.contacts.iter().all(|named| named.part.normal != Normal::Coupled) {
         return Vec::new();
@@ -166,8 +166,8 @@ pub(super) fn piled(scene: &Scene, free: &[Free]) -> Vec<Vec<usize>> {
 
 /// Returns the largest force on a free coordinate, N or N m.
 ///
-/// It is an upper bound: the sum of magnitudes of gravity, constant loads, extreme values of varying loads, preloads, and springs
-/// at their largest stroke.
+/// The force is an upper bound: the sum of magnitudes of gravity, constant loads, extreme values of varying loads, preloads, and springs at
+/// their largest stroke.
 pub(super) fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     let widest = |w: usize| {
         let (low, high) = around.signals.range(w);
@@ -187,9 +187,9 @@ pub(super) fn pressing(i: usize, around: &Surroundings<'_>) -> f64 {
     around.free[i].force.abs() + loads + links.sum::<f64>()
 }
 
-/// Returns the indentation from which `reached` holds, m; at most 1.2e18 m.
+/// Returns the smallest indentation for which `reached` holds, m; at most 1.2e18 m.
 ///
-/// Searches powers of two, then bisects: models in units that differ by a power of two give the same digits.
+/// The search tries powers of two, then bisects, so that models in units that differ by a power of two give the same digits.
 fn bracket(reached: impl Fn(f64) -> bool) -> f64 {
     // Starts well below any depth, as a profile is undefined beyond its extent.
     let mut high = 2.0_f64.powi(-60);

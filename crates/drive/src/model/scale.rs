@@ -1,24 +1,24 @@
-//! Natural scales, to which tolerances are relative.
+//! Natural scales of contacts and coordinates; tolerances are relative to these scales.
 
 use super::{Free, Link, Measure};
 use crate::Waveform;
 use crate::contact::{Contact, Natural};
 use crate::scene::{Axis, Normal, Scene, Varying};
 
-/// Length scale if no other is known, m.
+/// Length scale if no other scale is known, m.
 const LENGTH: f64 = 1e-6;
 
-/// Scratch memory.
+/// Scratch memory for natural scales.
 #[derive(Debug, Default)]
 pub(super) struct Room {
     springs: Vec<(f64, f64)>,
     frequency: Vec<f64>,
-    /// Whether a waveform is a force or a moment instead of a length.
+    /// Whether each waveform is a force or a moment instead of a length.
     forces: Vec<bool>,
 }
 
 impl Room {
-    /// Marks the waveforms of loads and of normal forces.
+    /// Marks the waveforms of loads and of normal forces as forces.
     pub(super) fn find_forces(&mut self, scene: &Scene) {
         self.forces.clear();
         self.forces.resize(scene.waveforms.len(), false);
@@ -37,13 +37,13 @@ impl Room {
     }
 }
 
-/// Sets the scales of contacts and free coordinates: u_c along the slide, d along the normal, and velocities by the stuck stiffness.
+/// Sets the natural scales of contacts and free coordinates: lengths u_c along the slide and d along the normal, and velocities.
 ///
 /// `deepest` is the largest indentation of each contact, `pushes` the largest force on each free coordinate.
 ///
-/// A free coordinate has a length l, the smallest u_c or d of its contacts divided by their arms, and the velocity lω with ω² =
-/// k/m in full stick. Without contacts l is the smallest stroke, or the displacement by `pushes`. Without stiffness ω is the
-/// largest angular frequency of the waveforms. A contact has the largest ω of the coordinates that move it.
+/// The length scale l of a free coordinate is the smallest u_c or d of its contacts divided by their arms; the velocity scale is lω with
+/// ω² = k/m in full stick. Without contacts l is the smallest stroke, or the displacement by `pushes`. Without stiffness ω is the largest
+/// angular frequency of the waveforms. A contact has the largest ω of the coordinates that move it.
 pub(super) fn assign(
     contacts: &mut [Contact],
     free: &mut [Free],
@@ -102,16 +102,16 @@ pub(super) fn assign(
     }
 }
 
-/// Returns the displacement of a measure by waveforms, m; infinite if other signals move it.
+/// Returns the range of a displacement by waveforms, m; infinite if other signals contribute.
 fn driven(measure: &Measure, waveforms: &[Waveform]) -> f64 {
     let range = |w: usize| waveforms.get(w).map_or(f64::INFINITY, |w| w.range().1 - w.range().0);
     measure.driven.iter().map(|(w, a)| a.abs() * range(*w)).sum()
 }
 
-/// Computes the stiffness on each free coordinate with all contacts stuck (N/m or N m/rad), and its length scale (m or rad;
+/// Computes the stiffness on each free coordinate with all contacts stuck (N/m or N m/rad), and the coordinate's length scale (m or rad;
 /// infinite without contacts).
 ///
-/// The stiffness is Σ arm²·k over contacts at their largest indentation and links; links have no length scale.
+/// The stiffness is Σ arm²·k over links, and contacts at their largest indentation; links have no length scale.
 fn find_springs(
     contacts: &[Contact],
     links: &[Link],
@@ -139,8 +139,8 @@ fn find_springs(
     }
 }
 
-/// Returns length and velocity scale of a coordinate without contacts, where no waveform is a length. The length is the displacement by a
-/// load against springs, or against inertia at the largest frequency of the waveforms, and by the initial velocity.
+/// Returns the length and velocity scale of a coordinate without contacts, where no waveform is a length. The length is the larger
+/// displacement by initial velocity, or by a load against springs or against inertia at the largest frequency of the waveforms.
 fn untouched(free: &Free, (push, stiffness): (f64, f64), quickest: Option<f64>) -> (f64, f64) {
     let own = (stiffness / free.mass).sqrt();
     let frequency = own.max(quickest.unwrap_or(0.0));
@@ -153,7 +153,7 @@ fn untouched(free: &Free, (push, stiffness): (f64, f64), quickest: Option<f64>) 
     (length, length * frequency)
 }
 
-/// Returns the largest angular frequency of the waveforms, rad/s. None without waveforms.
+/// Returns the largest angular frequency of the waveforms, rad/s; `None` without waveforms.
 fn highest_frequency(waveforms: &[Waveform]) -> Option<f64> {
     let period = waveforms.iter().filter_map(Waveform::shortest_period).fold(f64::INFINITY, f64::min);
     period.is_finite().then(|| std::f64::consts::TAU / period)

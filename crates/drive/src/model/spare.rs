@@ -1,4 +1,4 @@
-//! Parts of a [`Scene`](crate::Scene) that a model omits.
+//! Parts of a [`Scene`](crate::Scene) that a model omits because they have no effect.
 
 use super::{Link, Model, Stroke};
 use crate::contact::Press;
@@ -6,13 +6,13 @@ use crate::contact::Press;
 /// Indices of parts of a [`Scene`](crate::Scene) without effect.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Spared {
-    /// Springs between bodies at rest.
+    /// Springs between bodies that never move.
     pub springs: Vec<usize>,
-    /// Actuators between bodies at rest with constant stroke.
+    /// Actuators with constant stroke between bodies that never move.
     pub actuators: Vec<usize>,
-    /// Loads that guides of bodies carry.
+    /// Loads on bodies that cannot move, so that guides carry them.
     pub loads: Vec<usize>,
-    /// Waveforms that nothing follows; their corners do not end steps.
+    /// Waveforms that no part follows; their corners do not end steps.
     pub waveforms: Vec<usize>,
 }
 
@@ -23,14 +23,14 @@ pub enum Pressing {
     Constant,
     /// Waveform of the indentation.
     Followed,
-    /// Waveform of force or radius, converted at every evaluation.
+    /// Waveform of force or radius, which every evaluation converts to an indentation.
     Solved,
     /// Motion of the bodies.
     Bodies,
 }
 
 impl Model {
-    /// Returns the parts without effect.
+    /// Returns the parts of the description that have no effect.
     pub fn spared(&self) -> &Spared {
         &self.spared
     }
@@ -45,12 +45,12 @@ impl Model {
         })
     }
 
-    /// Whether the force of contact `index` is a state during growth in full stick.
+    /// Returns whether the force of contact `index` is a state during growth in full stick.
     pub fn grows(&self, index: usize) -> bool {
         self.contacts.get(index).is_some_and(|contact| contact.slot.is_some() && contact.engine.branches())
     }
 
-    /// Returns the names of bodies whose origin along the slide moves with them, because only contacts depend on their position.
+    /// Returns the names of bodies whose origin of x moves with them, because only contacts depend on their position.
     pub fn travellers(&self) -> impl Iterator<Item = &str> {
         let travelling = self.free.iter().filter(|free| free.travels);
         travelling.map(|free| self.bodies[free.body].name.as_str())
@@ -58,7 +58,7 @@ impl Model {
 }
 
 impl Link {
-    /// Whether it can exert a varying force: its ends or its stroke move.
+    /// Returns whether the link can exert a varying force, because its ends or its stroke move.
     pub(crate) fn acts(&self) -> bool {
         let moves = !self.elongation.free.is_empty() || !self.elongation.driven.is_empty();
         moves || matches!(self.stroke, Stroke::Driven(_))

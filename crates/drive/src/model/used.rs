@@ -3,9 +3,9 @@
 use super::{Binding, Model, Stroke, Wire};
 use crate::Waveform;
 
-/// Replaces unused waveforms by constants, so that their corners do not end steps, and records their indices. `used` is scratch.
+/// Replaces unused waveforms by constants, so that their corners do not end steps, and records their indices. `used` is scratch memory.
 ///
-/// Waveforms are used by bodies, strokes, normal loads, loads and blocks.
+/// Bodies, strokes, normal loads, external loads and blocks use waveforms.
 pub(super) fn hold_the_others(model: &mut Model, used: &mut Vec<bool>) {
     used.clear();
     used.resize(model.waveforms.len(), false);

@@ -25,7 +25,7 @@ impl Extent {
         Self { least: [x, t], most: [x, t], fall: 0.0, rise: 0.0 }
     }
 
-    /// Returns the extent of this interval and the next one.
+    /// Returns the extent over this interval and the next one together.
     #[must_use]
     pub fn join(self, later: Self) -> Self {
         Self {
@@ -36,7 +36,7 @@ impl Extent {
         }
     }
 
-    /// Whether it is empty.
+    /// Whether the interval is empty.
     pub fn is_none(&self) -> bool {
         self.least[0] > self.most[0]
     }

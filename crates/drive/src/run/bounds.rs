@@ -1,7 +1,7 @@
 //! Limits that stop a run: attempts, events, wall-clock time, accumulating events and lack of progress.
 //!
-//! [`Bounds`] is checked after every attempt and after every event of a contact or block. A check reads the state and
-//! returns a [`RunError`]. It does not change the state.
+//! [`Bounds`] is checked after every attempt and after every event of a contact or block. A check returns a [`RunError`] if a limit is
+//! exceeded. Checks do not change the state.
 
 use crate::Wall;
 use crate::record::Record;
@@ -18,7 +18,7 @@ const SINES: f64 = 8.0;
 ///
 /// Loops that were stored at the start of the period are allowed in addition.
 const LOOPS: u32 = 4096;
-/// Offset of the loop counters. It keeps a counter non-negative after the stored loops have been subtracted.
+/// Offset of the loop counters. The offset keeps a counter non-negative after the stored loops have been subtracted.
 const HELD: u32 = 1 << 24;
 /// Number of attempts between two checks of the wall clock in a model without spring rows.
 const STRIDE: u64 = 1024;

@@ -56,7 +56,7 @@ pub(super) struct Chords<'a> {
 }
 
 impl<'a> Chords<'a> {
-    /// Creates the run. Its layout has no states for the forces of contacts growing in full stick.
+    /// Creates the run. The state vector of the run has no forces of contacts growing in full stick.
     pub(super) fn new(model: &'a Model, plan: &Plan) -> Self {
         // The slip memory gives the force of a straight path; no state is needed for it.
         let layout = Layout { growing: 0, located: false, ..model.layout() };
@@ -85,8 +85,8 @@ impl<'a> Chords<'a> {
 
     /// Prepares a state for the run.
     ///
-    /// Integrated friction works become committed works, shifted origins return, and every contact gets the full force
-    /// law. A continued run of the same kind keeps its branches.
+    /// Friction work becomes committed work, origins return to the initial positions, and every contact gets the full force law. A
+    /// continued run of the same stepper keeps the branches of its force laws.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         let model = self.model;
         state.carry_over(model, self.layout);
@@ -117,7 +117,7 @@ impl<'a> Chords<'a> {
         self.output.begin_looks(&eq, (model, state), opening, record);
     }
 
-    /// Restores what an earlier run has saved.
+    /// Restores the data that an earlier run has saved in its state.
     fn take_up(&mut self, way: &FixedWay, state: &State) {
         self.senses.clone_from(&way.senses);
         self.ledger.booked.copy(&way.booked);
@@ -178,9 +178,9 @@ impl<'a> Chords<'a> {
         self.output.write_now(&eq, state, record);
     }
 
-    /// Evaluates all period ends in the step that ends at time t with components y.
+    /// Evaluates the step length at all period ends within the step that ends at time t with components y.
     ///
-    /// Ends the run at the period end with which the step length of the drive is constant.
+    /// Ends the run at the period end at which the step length of the drive has become steady.
     pub(super) fn take_steps(&mut self, state: &State, t: f64, y: &[f64]) {
         while let Some(due) = self.horizon.steps.due(t) {
             let step = Between { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
@@ -199,7 +199,7 @@ impl<'a> Chords<'a> {
 
     /// Accepts the step that ends at time t with components y. Returns whether the end of the run has cut it.
     ///
-    /// Fails if y is not finite, a contact or block refuses its path, or a limit is reached.
+    /// Fails if y is not finite, if a contact or block cannot follow its path, or if a limit is reached.
     pub(super) fn accept(
         &mut self,
         state: &mut State,
@@ -224,7 +224,7 @@ impl<'a> Chords<'a> {
         outcome.map(|()| true)
     }
 
-    /// Commits all contacts at time t with components y.
+    /// Commits the paths of all contacts up to time t with components y.
     ///
     /// All paths are computed before any slip memory changes.
     fn commit(
@@ -269,7 +269,7 @@ impl<'a> Chords<'a> {
 
     /// Writes rows and snapshots up to time t in the step that ends at `to`.
     ///
-    /// A snapshot shows copies of the slip memories, each moved along one straight path to the time of the snapshot.
+    /// A snapshot contains copies of the slip memories, each moved along one straight path to the time of the snapshot.
     fn write(&mut self, state: &State, t: f64, to: (f64, &[f64]), record: &mut dyn Record) {
         let eq = Equations::on(self.model, state, self.layout, self.crossing);
         let step = Between { from: (state.t, &state.y), to, free: self.layout.free };
@@ -299,7 +299,7 @@ impl<'a> Chords<'a> {
 
 /// Returns the sliding direction of a contact: the sense of its branch, otherwise its velocity u̇.
 ///
-/// At a reversal that cuts the step, rounding may give u̇ the wrong sign. The branch has the right one.
+/// At a reversal that cuts the step, rounding may give u̇ the wrong sign. The branch has the right sign.
 pub(super) fn heading(mode: &Mode, motion: &Motion) -> f64 {
     match mode {
         Mode::Slip(branch) => branch.sense(),

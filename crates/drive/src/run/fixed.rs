@@ -1,6 +1,6 @@
 //! Runs with fixed time steps and without event location.
 //!
-//! Events reduce the order of accuracy to at most two. The work of a run is known in advance.
+//! Events reduce the order of accuracy to at most two. The number of evaluations of a run is known in advance.
 
 use super::chords::{Chords, Weakening};
 use super::horizon::{Goal, Progress};
@@ -11,10 +11,10 @@ use crate::state::{FixedWay, Grid, Layout, State, Underway};
 use crate::{Model, Plan, RunError};
 use stickslip_stepper::{FixedStep, Stepping};
 
-/// Largest remainder that is included in a step because it is rounding, as a fraction of the step.
+/// Largest remainder of a time interval that is joined to a step because it results from rounding, as a fraction of the step.
 const REMAINDER: f64 = 1e-9;
 
-/// Shortest length to which a branch end cuts a step, as a fraction of a full step. It bounds the work.
+/// Shortest length to which a branch end cuts a step, as a fraction of a full step. The limit bounds the number of steps.
 const LEAST: f64 = 0.125;
 /// Shortest length to which decreasing contact damping cuts a step, as a fraction of a full step.
 const BRIEF: f64 = 1e-6;
@@ -22,7 +22,7 @@ const BRIEF: f64 = 1e-6;
 const CORRECTIONS: u32 = 2;
 /// Number of step lengths ahead within which vanishing contact damping changes the stages of a step.
 ///
-/// Beyond it, evenly distributed stages have a relative error of about 10⁻⁶.
+/// For a longer distance, evenly distributed stages have a relative error of about 10⁻⁶.
 const NEAR: f64 = 4.0;
 
 /// Length of a frame, s, and its whole number of steps; one step for plain fixed-step methods.
@@ -33,7 +33,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Returns the grid time after `count` steps, s. Frame k begins exactly at start + k·length.
+    /// Returns the grid time after `count` steps, s. Frame `k` begins exactly at start + k·length.
     fn moment(self, Grid { start, step, .. }: Grid, count: f64) -> f64 {
         let frame = (count / self.steps).floor();
         start + (frame * self.length + (count - frame * self.steps) * step)
@@ -59,10 +59,10 @@ pub(super) struct Fixed<'a, F> {
     name: &'static str,
     grid: Grid,
     frame: Frame,
-    /// Components at the end of the current step (`y`), of which the method integrates the first `moved`.
+    /// Components at the end of the current step (`y`). The method integrates the first `moved` of them.
     y: Vec<f64>,
     moved: usize,
-    /// Slopes saved before a step that may be undone.
+    /// Time derivatives saved before a step that may be undone.
     slopes: Vec<f64>,
     /// Number of evaluations already counted in the state.
     counted: u64,
@@ -100,7 +100,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         })
     }
 
-    /// Starts or continues a run at a state.
+    /// Starts or continues the run from a state.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         match &state.underway {
             Some(Underway::Fixed(way)) if way.stepper == self.name && way.grid.step == self.grid.step => {
@@ -174,7 +174,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         self.chords.settle(state);
     }
 
-    /// Returns the rounding error of grid times near t, s. Callers may compute frame times as other products.
+    /// Returns the rounding error of grid times near t, s. Callers may compute frame times by another product.
     fn slack(&self, t: f64) -> f64 {
         REMAINDER * self.grid.step + 4.0 * f64::EPSILON * t.abs()
     }
@@ -190,7 +190,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         t < limit - slack
     }
 
-    /// Takes one step to the next grid time, or to an earlier cut.
+    /// Takes one step to the next grid time, or to an earlier corner, goal or branch end.
     fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         let aim = self.frame.moment(self.grid, self.grid.count + 1.0);
         let slack = self.slack(aim);
@@ -287,13 +287,13 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         pieces.fold(self.grid.step, f64::min)
     }
 
-    /// Returns when contact damping vanishes, s, if it does so within [`NEAR`] steps. The stages are adapted to that time.
+    /// Returns when contact damping vanishes, s, if within [`NEAR`] steps. The Runge–Kutta stages are adapted to that time.
     fn root_ahead(&mut self, state: &State, end: f64) -> Option<f64> {
         let root = self.chords.gives_way_after(state, (end, &self.y))?;
         (root - state.t < NEAR * (end - state.t)).then_some(root)
     }
 
-    /// Repeats the step to `end`. The stages are adapted to contact damping that vanishes at time `root`, s.
+    /// Repeats the step to `end`. Its Runge–Kutta stages are adapted to contact damping that vanishes at time `root`, s.
     fn again(&mut self, state: &State, end: f64, root: Option<f64>) {
         self.y.copy_from_slice(&state.y);
         self.stepper.restart();

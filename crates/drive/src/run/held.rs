@@ -10,10 +10,10 @@ use crate::waveform::Command;
 use crate::{CommandError, InputError, Model, Plan, RunError, State, Stepper};
 use stickslip_stepper::{Nystrom4, Rk4, Verlet};
 
-/// Run that its caller advances. It owns the state and the workspace and borrows the model.
+/// Run that its caller advances. A `Run` owns the state and the workspace and borrows the model.
 ///
-/// Between two calls, [`Run::state`] contains everything that the future of the run depends on. A run created from a
-/// copy of it, in this process or another, continues with the same bits.
+/// Between two calls, [`Run::state`] contains everything that the future of the run depends on. A run created from a copy of this state, in
+/// this process or another, continues with the same bits.
 ///
 /// After the first call nothing is allocated, unless a slip memory becomes deeper than before.
 pub struct Run<'m> {
@@ -58,7 +58,7 @@ impl<'m> Way<'m> {
     }
 }
 
-/// Calls one method of the run inside any variant.
+/// Calls one method on the run, whatever its stepper.
 macro_rules! each {
     ($way:expr, $run:ident => $call:expr) => {
         match $way {
@@ -107,7 +107,7 @@ impl Way<'_> {
         each!(self, run => run.write_now(state, record));
     }
 
-    /// Passes the extents of the watched bodies since the last sample row to the record and forgets them.
+    /// Passes the extents of the watched bodies since the last sample row to the record and resets them.
     fn hand_over(&mut self, record: &mut dyn Record) {
         each!(self, run => run.hand_over(record));
     }
@@ -141,7 +141,7 @@ impl Record for First<'_> {
 impl<'m> Run<'m> {
     /// Creates a run that begins at a state.
     ///
-    /// The end of the plan matters only for [`Self::approach`] and [`Self::finish`].
+    /// The end of the plan has an effect in [`Self::approach`] and [`Self::finish`] only.
     ///
     /// # Errors
     ///
@@ -154,8 +154,8 @@ impl<'m> Run<'m> {
 
     /// Creates a run that continues an earlier one.
     ///
-    /// Rows and snapshots ([`Record::look`]) up to the state are not written again. A run created by [`Self::new`]
-    /// continues with the same bits, but begins with a row.
+    /// Rows and snapshots ([`Record::look`]) up to the time of the state are not written again. A run created by [`Self::new`] continues
+    /// with the same bits, but begins with a row.
     ///
     /// # Errors
     ///
@@ -164,12 +164,12 @@ impl<'m> Run<'m> {
         Ok(Self { resumed: true, ..Self::new(model, plan, state)? })
     }
 
-    /// Advances the run to time `until`, s. Rows are written at the interval of the plan; the stop adds none.
+    /// Advances the run to time `until`, s. Rows are written at the interval of the plan; the end of an advance adds no row.
     ///
     /// Many short advances give the same result as a long one. The bits are equal where the motion has a closed form (a single slider on
     /// paraboloids, straight waveforms). Otherwise results agree within the tolerance, because the last step of each advance is cut.
     ///
-    /// A plan without rows (`every: None`) and the record `&mut ()` are the fastest.
+    /// A plan without rows (`every: None`) and the record `&mut ()`, which discards output, give the fastest run.
     ///
     /// # Errors
     ///
@@ -185,7 +185,7 @@ impl<'m> Run<'m> {
     }
 
     /// Advances the run by whole steps and stops before the step that would reach the end of the plan.
-    ///
+    /// The output does not depend on the end of the plan. A later resumed run may have another end.
     /// The output does not depend on the end of the plan. A run resumed here may have another end.
     ///
     /// # Errors
@@ -196,7 +196,7 @@ impl<'m> Run<'m> {
         self.go(Goal::BeforeEnd(end), Opening::Row, end, record)
     }
 
-    /// Advances the run to the end of the plan and writes the last row. After an error, that row is the state reached.
+    /// Advances the run to the end of the plan and writes the last row. After an error, the last row contains the state reached.
     ///
     /// # Errors
     ///
@@ -225,7 +225,7 @@ impl<'m> Run<'m> {
     /// Waveforms are numbered in the order of the scenario file. A different value is a jump. Contacts of the moved
     /// body then follow a straight path in zero time, and the work of the jump counts as input work.
     ///
-    /// A linear input is held by [`Self::lead`] to its current value.
+    /// A linear input is held at its current value by [`Self::lead`].
     ///
     /// # Errors
     ///
@@ -260,7 +260,7 @@ impl<'m> Run<'m> {
         self.state.command(self.model, generator, command)
     }
 
-    /// Returns the current state. Slip memories of contacts may lag behind until their next event.
+    /// Returns the current state. Slip memories of contacts are not updated until their next event.
     pub fn state(&self) -> &State {
         &self.state
     }

@@ -1,10 +1,10 @@
 //! End of a run, and the next time that no step may cross.
 //!
-//! Steps of a run to the end of its plan are not cut at the end: the last step may pass it. Results before the end are
-//! therefore independent of it. An ended run can continue from its last whole step.
+//! A run to the end of its plan does not cut its last step there: the step may pass the end. Results before the end are therefore
+//! independent of the end. A finished run can continue from its last whole step.
 //!
-//! An advance to a given time cuts its last step there. The next corner is updated when waveforms reach a corner.
-//! Events are not part of the horizon, because no step stops before an event.
+//! An advance to a given time cuts its last step at that time. The next corner is updated when waveforms reach a corner. Events are not
+//! part of the horizon, because no step stops before an event.
 
 use super::steady::Steps;
 use crate::{Model, Plan};
@@ -15,7 +15,7 @@ pub(super) struct Horizon {
     pub(super) until: f64,
     /// End of the run, s; steps may pass it.
     pub(super) end: f64,
-    /// Time that the last step must reach, s; it may pass it.
+    /// Time that the last step must reach or pass, s.
     past: f64,
     /// Time from which on the end counts as reached, s.
     pub(super) nearly: f64,
@@ -81,9 +81,9 @@ impl Horizon {
 pub(super) enum Goal {
     /// Time at which the last step is cut, s.
     Moment(f64),
-    /// End of the run, s; the run stops after the last whole step before it.
+    /// End of the run, s; the run stops after the last whole step before the end.
     BeforeEnd(f64),
-    /// End of the run, s, with its last row.
+    /// End of the run, s; the last row is written there.
     End(f64),
     /// Time that a step must reach or pass, s.
     #[cfg_attr(not(test), expect(dead_code, reason = "tests look at one step after another"))]
@@ -103,8 +103,8 @@ impl Goal {
 /// Result of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Progress {
-    /// The time has advanced, or the next step is shorter.
+    /// The time has advanced, or the next attempt is shorter.
     Made,
-    /// Nothing has changed: the next step would reach the end.
+    /// The state is unchanged, because the next step would reach the end.
     Short,
 }

@@ -1,10 +1,9 @@
 //! Commit of accepted paths to the memories of contacts and blocks.
 //!
-//! A run collects the paths of all contacts that move and commits them together. A slip memory refuses values that are
-//! not finite or out of range; the error names the contact.
+//! A run collects the paths of all contacts that move and commits them together. A slip memory refuses values that are not finite or out of
+//! range; the resulting error names the contact.
 //!
-//! Each path has a duration that counts from the end of the contact's previous path. A contact with a closed-form force
-//! has paths at events only.
+//! The duration of a path counts from the end of the contact's previous path. A contact with a closed-form force has paths at events only.
 
 use crate::RunError;
 use crate::component::{Passage, Refused};
@@ -68,7 +67,7 @@ impl Ledger {
         Self { touched: 0, told: None, ..self }
     }
 
-    /// Begins to keep committed paths if the record requests paths.
+    /// Begins to store committed paths if the record requests paths.
     pub(super) fn begin_telling(&mut self, record: &dyn Record) {
         self.told = record.follows().then(Vec::new);
     }
@@ -78,7 +77,7 @@ impl Ledger {
         self.told.is_some()
     }
 
-    /// Keeps a path that the slip memory of contact `c` has committed, for the record.
+    /// Stores a path that the slip memory of contact `c` has committed, to pass it to the record.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, state: &State, c: usize, path: Segment) {
         if let Some(told) = &mut self.told {
@@ -86,7 +85,7 @@ impl Ledger {
         }
     }
 
-    /// Passes the kept paths to the record.
+    /// Passes the stored paths to the record.
     #[inline]
     pub(super) fn tell(&mut self, record: &mut dyn Record) {
         if let Some(told) = &mut self.told {
@@ -117,8 +116,8 @@ impl Ledger {
 
     /// Commits all collected paths of a step that ends at time t, s.
     ///
-    /// Adds the friction work of all identical contacts to the state, J, unless the run integrates it. Fails if a slip
-    /// memory refuses its path.
+    /// Adds the friction work of all identical contacts to the state, J, unless the run integrates this work. Fails if a slip memory
+    /// refuses its path.
     pub(super) fn commit(
         &mut self,
         (model, layout): (&Model, Layout),
@@ -149,7 +148,7 @@ impl Ledger {
         Ok(())
     }
 
-    /// Commits all blocks at the current state, after every accepted step. Adds their losses to the state, J.
+    /// Commits all blocks at the current state, after every accepted step. Adds energy lost in the blocks to the state, J.
     pub(super) fn commit_blocks(
         &mut self,
         (model, layout): (&Model, Layout),
@@ -164,7 +163,7 @@ impl Ledger {
 
     /// Moves all blocks along a jump of their inputs.
     ///
-    /// States, memory and law of a block change before the next block reads its signal.
+    /// A block changes its states, memory and law before the next block reads its output signal.
     pub(super) fn jump_blocks(
         &mut self,
         (model, layout): (&Model, Layout),
@@ -200,9 +199,9 @@ impl Ledger {
         Ok(())
     }
 
-    /// Returns the work that all blocks would lose in a trial step, J.
+    /// Returns the energy that all blocks would lose in a trial step, J.
     ///
-    /// `ends` are the ends of the two half steps. `kept` is scratch for the memory of a block.
+    /// `ends` are the ends of the two half steps. `kept` is scratch storage for the memory of a block.
     pub(super) fn would_lose(
         &mut self,
         equations: &Equations<'_>,

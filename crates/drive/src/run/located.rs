@@ -1,19 +1,19 @@
 //! Runs with located events: smooth contact laws between two events.
 //!
-//! Each contact follows the law that its last event has set. The law stays smooth beyond the event that will end it. A step is attempted
-//! on these laws. If an event function crosses zero inside the step, the event is located on the dense output, and the step ends there.
+//! Each contact follows the force law set by its last event. The law stays smooth beyond the event that will end it. A step is attempted
+//! with these laws. If an event function crosses zero inside the step, the event is located on the dense output and ends the step.
 //!
 //! Then the slip memories commit their paths, and contacts with an event get their next law. A contact with a closed-form force commits at
-//! its own events only. Waveform corners end steps exactly. An interval with a closed-form solution is passed in one leap, without steps.
+//! its own events only. Steps end exactly at waveform corners. If the motion has a closed form, one step covers the whole interval.
 //!
-//! [`Located::step`] advances a run by one step or leap. It uses these parts:
+//! [`Located::step`] advances a run by one step. It uses these parts:
 //!
 //! * [`Motion`]: integrator and step length.
 //! * [`Watch`]: contacts at both ends of the step, and zero crossings at its end.
 //! * [`Ledger`]: paths that the slip memories commit.
 //! * [`Output`]: rows and snapshots.
-//! * [`Horizon`]: end of the run.
-//! * [`Turning`]: waveforms at a corner.
+//! * [`Horizon`]: end of the run and next corner.
+//! * [`Turning`]: waveforms that change their pieces at a corner.
 
 mod aim;
 mod allowance;
@@ -61,7 +61,7 @@ use turning::Turning;
 use watch::Watch;
 use whole::Halves;
 
-/// Constants of a run. They are small and copied, so that users of a setting borrow nothing.
+/// Constants of a run. The setting is copied, so that users of its constants borrow nothing.
 #[derive(Clone, Copy)]
 struct Setting<'a> {
     /// Constants of the model.
@@ -76,13 +76,13 @@ struct Setting<'a> {
 /// Contact laws at the start of a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Laws {
-    /// Laws of the state, set by an earlier run with located events.
+    /// Laws in the state, set by an earlier run with located events.
     Kept,
     /// Laws chosen from the motion, for a first run or after a run without located events.
     Chosen,
 }
 
-/// Workspace of a run. Between two calls the [`State`] contains everything that the future of the run depends on.
+/// Workspace of a run with located events. Between two calls the [`State`] contains everything that the future of the run depends on.
 pub(super) struct Located<'a, A> {
     setting: Setting<'a>,
     horizon: Horizon,
@@ -90,13 +90,13 @@ pub(super) struct Located<'a, A> {
     interval: Interval<'a>,
     /// Closed-form motion of a single slider until the next event.
     swing: Swing<'a>,
-    /// Input work at the start of the current leap, J; `None` outside leaps.
+    /// Input work at the start of the current closed-form step, J; `None` if there is no such step.
     takeoff: Option<f64>,
-    /// Current interval of step doubling (`detour`), the last one, and storage for its steps (`halves`).
+    /// Current interval of step doubling (`detour`), the last such interval, and storage for its steps (`halves`).
     detour: Option<Detour>,
     last_detour: Detour,
     halves: Option<Box<Halves>>,
-    /// Whether any contact has contact damping. The law then jumps between stick and slip.
+    /// Whether any contact has contact damping, so that the law jumps between stick and slip.
     slides: bool,
     motion: Motion<A>,
     control: StepControl,
@@ -135,7 +135,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         Self::within(Room::of(solver, setting.layout), setting, plan, control)
     }
 
-    /// Creates the run in the storage of an earlier one.
+    /// Creates the run in the storage of an earlier run.
     fn within(room: Room<A>, setting: Setting<'a>, plan: &Plan, (order, limits): (u32, StepLimits)) -> Self {
         let model = setting.model;
         let motion = Motion::new(&setting, room.solver, room.scale);
@@ -167,7 +167,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
     }
 
-    /// Starts or continues a run at a state.
+    /// Starts or continues the run from a state.
     pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         state.carry_over(self.setting.model, self.setting.layout);
         self.forget();
@@ -192,7 +192,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         record.enters(state);
     }
 
-    /// Resets everything that depends on an earlier state.
+    /// Resets all data of the workspace that depend on an earlier state.
     fn forget(&mut self) {
         self.takeoff = None;
         (self.detour, self.last_detour) = (None, Detour::NONE);
@@ -261,7 +261,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.output.write_now(&self.setting.plain(state), state, record);
     }
 
-    /// Begins at a state. If `laws` requires it, chooses the contact laws and the first step length.
+    /// Begins a run at a state. With [`Laws::Chosen`], contact laws and the first step length are chosen anew.
     ///
     /// The first step is at most one natural period of the fastest contact.
     fn begin(&mut self, state: &mut State, laws: Laws) {
@@ -290,7 +290,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         };
     }
 
-    /// Passes an event or a corner at the current time and begins the next interval.
+    /// Handles an event or a corner at the current time and begins the next interval.
     fn pass_event(
         &mut self,
         state: &mut State,
@@ -329,7 +329,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
 
     /// Continues in the interval that has begun.
     ///
-    /// The integrator restarts only if steps follow. A leap needs no slopes.
+    /// The integrator restarts only if integration steps follow. A closed-form step needs no time derivatives.
     fn go_on_from(&mut self, state: &State) {
         self.motion.pace.restart();
         self.motion.whereabouts = Whereabouts::Behind;
@@ -340,7 +340,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
 
     /// Restarts the integrator at the current state, with one evaluation.
     ///
-    /// Updates what depends on it: contact motions, allowed errors and the check for rest.
+    /// Updates the data that depend on the restart: contact motions, allowed errors and the check for rest.
     fn catch_up(&mut self, state: &State) {
         let eq = self.setting.equations(state, &self.interval);
         self.motion.start(&eq, state);
@@ -349,7 +349,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.motion.rest(self.setting.model, state);
     }
 
-    /// Updates the next corner and the power of the followers after waveforms have changed their pieces.
+    /// Updates the next corner and the power of prescribed motions after waveforms have changed their pieces.
     fn turned(&mut self, state: &State) {
         self.horizon.corner = state.next_corner();
         self.motion.allowance.allowed.power = allowance::follower_power(self.setting.model, state);

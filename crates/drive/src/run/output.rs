@@ -1,7 +1,7 @@
 //! Output of a run: rows on a regular time grid, events, snapshots of slip memories, and sample rows.
 //!
-//! A record requests the times of snapshots and sample rows. This module decides when output is due. The run computes its values from the
-//! dense output of a step or from the closed form of a leap. Output never ends a step, and its evaluations are counted separately.
+//! A record requests the times of snapshots and sample rows. This module decides when output is due. The run computes the output from the
+//! dense output of a step or from the closed form of an interval. Output never ends a step; evaluations for output are counted separately.
 
 mod marks;
 mod rows;
@@ -20,7 +20,7 @@ pub(super) use turns::Turns;
 
 /// Output of a run to its record.
 ///
-/// It only reads states and dense outputs. With and without output a run has the same bits.
+/// Output only reads states and dense outputs, so a run has the same bits with and without output.
 pub(super) struct Output {
     /// Interval of the rows, s.
     pub(super) every: Option<f64>,
@@ -30,7 +30,7 @@ pub(super) struct Output {
     pub(super) turns: Turns,
     pub(super) rows: Rows,
     row: Vec<f64>,
-    /// Scratch for the components at one time, or for their slopes.
+    /// Scratch memory for the components at one time, or for their time derivatives.
     pub(super) components: Vec<f64>,
     /// Number of evaluations for output and other purposes that do not belong to the run.
     pub(super) evaluations: u64,
@@ -45,7 +45,7 @@ impl Output {
         blank.renewed(every, layout)
     }
 
-    /// Returns an empty output in the same storage.
+    /// Returns an output without data in the storage of an earlier one.
     pub(super) fn renewed(mut self, every: Option<f64>, layout: Layout) -> Self {
         self.components.clear();
         self.components.resize(layout.total(), 0.0);
@@ -75,7 +75,7 @@ impl Output {
         self.marks.begin(equations, at, opening == Opening::Resumed, record);
     }
 
-    /// Whether output is due at time t or before, or the record reads every step. Costs a few comparisons.
+    /// Whether output is due at time t or before, or whether the record needs every step. The check costs a few comparisons.
     #[inline(always)]
     pub(super) fn due(&self, t: f64) -> bool {
         self.marks.watches() || self.reads(t)
@@ -87,7 +87,7 @@ impl Output {
         self.grid.due(t).is_some() || self.looks.due(t).is_some() || self.marks.due(t).is_some()
     }
 
-    /// Sets the end of the rows, s, where the last row lies. Returns the time from which on the end counts as reached, s.
+    /// Sets the time of the last row, s. Returns the time from which this end counts as reached, s.
     pub(super) fn end_at(&mut self, end: f64) -> f64 {
         self.grid.end_at(end)
     }
@@ -97,7 +97,7 @@ impl Output {
         self.grid.write_now(equations, state, record);
     }
 
-    /// Reports an event with the row after it.
+    /// Reports an event with the row of values immediately after the event.
     pub(super) fn event(
         &mut self,
         equations: &Equations<'_>,
@@ -109,7 +109,7 @@ impl Output {
         record.event(event, &self.row);
     }
 
-    /// Reports the turning points of u up to time `until`, s, in the current step. `y` returns a component at a time.
+    /// Reports the turning points of u in the current step up to time `until`, s. `y` returns a component at a given time.
     pub(super) fn tell_turns(
         &mut self,
         equations: &Equations<'_>,
@@ -132,7 +132,7 @@ pub(super) enum Opening {
     Row,
     /// A row at the start only if the grid has one there.
     Grid,
-    /// Nothing at the start, because an earlier run has written it.
+    /// No row at the start, because an earlier run has written the row.
     Resumed,
 }
 
@@ -149,13 +149,13 @@ impl Opening {
 
 /// Time window without limits, s.
 const EVERYWHERE: [f64; 2] = [0.0, f64::INFINITY];
-/// Largest distance behind the end of a time window that counts as rounding, in row intervals.
+/// Largest distance beyond the end of a time window that counts as rounding, in row intervals.
 const SAME: f64 = 1e-9;
 
-/// Rows at multiples of an interval within a time window, and at the end of a run.
+/// Rows at multiples of an interval within a time window, and a last row at the end of a run.
 pub(super) struct Grid {
     schedule: Schedule,
-    /// End of the time window, s; later only the last row of the run is written.
+    /// End of the time window, s; after this time only the last row of the run is written.
     until: f64,
     /// Time of the next row, s; ∞ after the last one.
     next: f64,
@@ -177,19 +177,19 @@ impl Grid {
         grid
     }
 
-    /// Returns the next time of the interval within the window, s; ∞ after the last one.
+    /// Returns the time of the next regular row within the window, s; ∞ after the last one.
     fn scheduled(&self) -> f64 {
         let due = self.schedule.due();
         if due <= self.until { due } else { f64::INFINITY }
     }
 
-    /// Returns the time of the next row if it is at or before `t`.
+    /// Returns the time of the next row, if that is at or before `t`.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
         (self.next <= t && self.next < f64::INFINITY).then_some(self.next)
     }
 
-    /// Sets the end of the rows, s. Returns the time from which on the end counts as reached, s.
+    /// Sets the time of the last row, s. Returns the time from which this end counts as reached, s.
     pub(super) fn end_at(&mut self, end: f64) -> f64 {
         self.end = end;
         self.schedule.end_at(end);
@@ -197,7 +197,7 @@ impl Grid {
         self.schedule.nearly()
     }
 
-    /// Writes the row at time t and moves to the next one.
+    /// Writes the row at time t and advances to the next row.
     pub(super) fn write(
         &mut self,
         equations: &Equations<'_>,
@@ -233,10 +233,10 @@ pub(super) struct Looks {
 }
 
 impl Looks {
-    /// State without any request, before a run.
+    /// Value before a run, without a requested snapshot.
     pub(super) const NONE: Self = Self { due: f64::INFINITY };
 
-    /// Requests the first snapshot after the start of a run. A snapshot at the start is taken at once.
+    /// Requests the first snapshot at or after the start of a run. A snapshot at the start is taken at once.
     fn begin((model, state): (&Model, &State), opening: Opening, record: &mut dyn Record) -> Self {
         let mut looks = Self { due: f64::NEG_INFINITY };
         looks.ask(record);
@@ -251,7 +251,7 @@ impl Looks {
         looks
     }
 
-    /// Returns the time of the next snapshot if it is at or before `t`.
+    /// Returns the time of the next snapshot, if that is at or before `t`.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
         (self.due <= t).then_some(self.due)
@@ -259,7 +259,7 @@ impl Looks {
 
     /// Passes the slip memories at the time of the snapshot to the record and requests the next one.
     ///
-    /// Without memories the snapshot is omitted: a contact could not follow its path to that time.
+    /// Without memories the snapshot is omitted, because a contact could not follow its path to that time.
     pub(super) fn show(&mut self, memories: Option<&[Memory]>, record: &mut dyn Record) {
         if let Some(memories) = memories {
             record.look(self.due, memories);
@@ -267,7 +267,7 @@ impl Looks {
         self.ask(record);
     }
 
-    /// Requests the next snapshot. A time that is not later than the last one ends the snapshots.
+    /// Requests the next snapshot. A requested time that is not later than the last one ends the snapshots.
     fn ask(&mut self, record: &mut dyn Record) {
         let next = record.next_look().unwrap_or(f64::INFINITY);
         self.due = if next > self.due { next } else { f64::INFINITY };

@@ -1,4 +1,4 @@
-//! Plain adaptive reference integrator: Dormand–Prince 5(4), one call between two corners, no event location.
+//! Plain adaptive reference integrator: Dormand–Prince 5(4), called once between two corners, without event location.
 
 use super::chords::Chords;
 use super::horizon::Goal;
@@ -8,16 +8,16 @@ use crate::{Model, Plan, RunError, State, Waveform};
 use stickslip_stepper::System;
 use stickslip_stepper::reference::{Accepting, ReferenceError, ReferenceOptions, integrate};
 
-/// Longest time step, as a fraction of the waveform resolution, which is a quarter of the shortest wave.
+/// Maximum time step, as a fraction of the waveform resolution, which is a quarter of the shortest wave.
 ///
 /// In gross slip the equations do not depend on the waveform. Without the limit, a long step would miss a wave in which
 /// the contact sticks for a short time.
 const SEEN: f64 = 0.125;
 
-/// Run whose solver chooses the steps itself.
+/// Reference run, whose solver chooses the steps itself.
 ///
-/// The solver evaluates slopes and passes each accepted step to [`Chords`], which commits it. The error of a commit is
-/// kept in `outcome` until the solver returns.
+/// The solver evaluates time derivatives and passes each accepted step to [`Chords`], which commits it. An error of the commit is stored in
+/// `outcome` until the solver returns.
 struct Driven<'a> {
     chords: Chords<'a>,
     state: &'a mut State,
@@ -54,12 +54,12 @@ impl Accepting for Driven<'_> {
     }
 }
 
-/// Runs a plan from corner to corner.
+/// Runs a plan with one call of the solver from corner to corner.
 ///
 /// The solver controls its steps by `tolerance`, relative to natural lengths, natural speeds and the scales of block
 /// states. At a corner, a new call begins with the last step length.
 ///
-/// Fails with too many steps, a step that is too small, or as [`Chords::accept`] does.
+/// Fails if steps are too many or too small, or as [`Chords::accept`] does.
 pub(super) fn run(
     model: &Model,
     plan: &Plan,

@@ -1,4 +1,4 @@
-//! Detection of a constant step length of a periodic drive.
+//! Detection of a steady step length of a periodic drive.
 
 use crate::model::Binding;
 use crate::scene::Axis;
@@ -18,13 +18,13 @@ pub(super) struct Steps {
     /// Start of the first period (`start`) and length of a period (`period`), s.
     start: f64,
     period: f64,
-    /// Number of whole periods; may be infinite.
+    /// Number of whole periods of the waveform; may be infinite.
     periods: f64,
     /// Next period end, s; ∞ after the last one.
     due: f64,
-    /// Time from which on `due` counts as reached, s.
+    /// Time from which on the time `due` counts as reached, s.
     nearly: f64,
-    /// Largest change of a constant step length (`change`), relative to the step length or to `natural`, m, if that is longer.
+    /// Largest change of a steady step length (`change`), relative to the step length or to `natural`, m, if that is longer.
     change: f64,
     natural: f64,
     /// Period ends and step lengths found so far.
@@ -32,12 +32,12 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// Returns the detection that a plan requests. Without a request or a periodic waveform it is never due.
+    /// Returns the detection that a plan requests. Without a request or a periodic waveform no period end is ever due.
     pub(super) fn of(model: &Model, plan: &Plan) -> Self {
         plan.until_steady.and_then(|asked| Self::asked(model, asked)).unwrap_or(Self::NEVER)
     }
 
-    /// Begins with the first period end at or after the current time; earlier ones are unknown.
+    /// Begins with the first period end at or after the current time, because earlier positions are unknown.
     pub(super) fn begin(&mut self, state: &State) {
         // Skips all past periods at once, because the state may have any time.
         let passed = ((state.t - self.start) / self.period).floor() - 1.0;
@@ -58,7 +58,7 @@ impl Steps {
         (self.period > 0.0).then_some(self.so_far)
     }
 
-    /// Continues from saved results.
+    /// Continues the detection from results saved in the state.
     pub(super) fn take_up(&mut self, so_far: Stepped, state: &State) {
         if self.period > 0.0 {
             self.so_far = so_far;
@@ -104,7 +104,7 @@ impl Steps {
         })
     }
 
-    /// Returns the next period end if it is at or before `t`; `t` itself if both agree within rounding.
+    /// Returns the time of the next period end, if that is at or before `t`. A time that agrees with `t` within rounding is `t` itself.
     #[inline]
     pub(super) fn due(&self, t: f64) -> Option<f64> {
         if t < self.nearly {
@@ -113,10 +113,10 @@ impl Steps {
         Some(if t > self.due * (1.0 + SAME) { self.due } else { t })
     }
 
-    /// Adds the position at a period end: its origin and the distance from there, m. Returns whether steps are constant.
+    /// Adds the position at a period end, as an origin and the distance from it, m. Returns whether the step length is steady.
     ///
-    /// The step length is constant if [`AGREEING`] consecutive values each differ little from the previous one. The limit is `change`
-    /// times the step length, or times the body's natural length if that is longer. Steps of zero length agree.
+    /// The step length is steady if [`AGREEING`] consecutive values each differ little from the previous one. The allowed difference is
+    /// `change` times the step length, or times the body's natural length if that is longer. Steps of zero length agree.
     pub(super) fn take(&mut self, origin: f64, place: f64) -> bool {
         self.advance();
         let Some(before) = self.so_far.place.replace((origin, place)) else { return false };
@@ -130,7 +130,7 @@ impl Steps {
         *agreed >= AGREEING
     }
 
-    /// Moves to the next period end. Its time is a product, so rounding does not accumulate.
+    /// Moves to the next period end. The time is computed as a product, so rounding does not accumulate.
     fn advance(&mut self) {
         self.so_far.next += 1.0;
         self.look_ahead();

@@ -1,4 +1,4 @@
-//! Stored energy, from which the work of a waveform jump follows.
+//! Stored energy, whose change gives the work of a waveform jump.
 
 use crate::contact::Contact;
 use crate::equations::Equations;
@@ -6,7 +6,7 @@ use crate::record;
 use crate::state::State;
 use stickslip_contact::Memory;
 
-/// Returns the energy of contacts and links at the committed state, J, without that of a prescribed normal load.
+/// Returns the energy of contacts, springs and actuators at the committed state, J, without that of a prescribed normal load.
 pub(super) fn stored(eq: &Equations<'_>, state: &State) -> f64 {
     let energy = |(contact, memory): (&Contact, &Memory)| {
         let apex = memory.apex();

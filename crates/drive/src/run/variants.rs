@@ -10,10 +10,10 @@ use thiserror::Error;
 
 /// Storage for consecutive runs, in which model, state and workspace are reused.
 ///
-/// The results agree to the last bit with [`Model::new`], [`Model::start`] and [`run`](crate::run()) of each [`Scene`] alone.
+/// The results are bit-identical to those of [`Model::new`], [`Model::start`] and [`run`](crate::run()) for each [`Scene`] alone.
 ///
-/// A [`Scene`] has the same shape as an earlier one if numbers and bindings of bodies, contacts, links and loads are equal. Its run
-/// allocates nothing if it has one free coordinate, no block, a given start and the stepper [`Stepper::Event`]. Other runs allocate, for
+/// Scenarios ([`Scene`]) have the same shape if numbers and bindings of bodies, contacts, links and loads are equal. A run of the same
+/// shape allocates no memory with one free coordinate, no block, a given start and the stepper [`Stepper::Event`]. Other runs allocate, for
 /// example for eigenvalues, an equilibrium or blocks. A slip memory that is deeper than before allocates, too.
 pub struct Variants {
     model: Model,
@@ -26,7 +26,7 @@ pub struct Variants {
 /// Reason why a variant has failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum VariantError {
-    /// The [`Scene`] has no valid model or no start.
+    /// The scenario ([`Scene`]) has no valid model, or its run cannot start.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The run has stopped with an error.
@@ -53,7 +53,7 @@ impl Variants {
         }
     }
 
-    /// Builds the model of a [`Scene`], starts it and runs it to the end of a plan.
+    /// Builds the model of a scenario ([`Scene`]), starts it and runs it to the end of a plan.
     ///
     /// # Errors
     /// The errors of [`Model::new`], [`Model::start`] and [`run`](crate::run()). After an error of the run,
@@ -75,7 +75,7 @@ impl Variants {
         Ok(())
     }
 
-    /// Returns the model of the last variant. After an error in its [`Scene`] the model has no meaning.
+    /// Returns the model of the last variant. If its scenario ([`Scene`]) was invalid, the model has no meaning.
     #[must_use]
     pub fn model(&self) -> &Model {
         &self.model

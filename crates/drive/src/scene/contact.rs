@@ -3,8 +3,8 @@
 use super::{Point, Side, Varying};
 use stickslip_contact::Interface;
 
-/// Frictional contact. Its displacement is u = x(first) - x(second) at the contact point. F_x(u) acts on the second body and -F_x
-/// on the first, which is the lower one.
+/// Frictional contact with the displacement u = x(first) - x(second) at the contact point. The tangential force F_x(u) acts on the second
+/// body, and -F_x acts on the first (lower) body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
     /// First (lower) and second body.
@@ -15,7 +15,7 @@ pub struct Contact {
     pub interface: Interface,
     /// Normal load.
     pub normal: Normal,
-    /// Gap between the bodies in the reference position, m; negative if pressed. Used for [`Normal::Coupled`].
+    /// Gap between the bodies in the reference position, m; negative if they overlap. Used for [`Normal::Coupled`] only.
     pub gap: f64,
     /// Initial state of the contact.
     pub start: ContactStart,
@@ -38,15 +38,15 @@ pub enum Normal {
     Coupled,
 }
 
-/// Initial state of a contact, which monotonic loading of the untouched contact reaches.
+/// Initial state of a contact, reached by monotonic tangential loading of the untouched contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ContactStart {
     /// Springs unstretched.
     #[default]
     Untouched,
-    /// Loaded to this tangential force of one contact, N; its magnitude must be below μF_N.
+    /// Tangential force of one contact after loading, N; its magnitude must be below μF_N.
     Force(f64),
-    /// Loaded to this displacement, m.
+    /// Tangential displacement of the contact after loading, m.
     Displacement(f64),
 }
 
@@ -60,7 +60,7 @@ pub enum EngineChoice {
     Springs {
         /// Number of springs.
         count: usize,
-        /// Length of the row, m. The default is the width of the contact at its largest known indentation, or enough to carry the
+        /// Length of the row, m. By default the row covers the contact at the largest known indentation, or is long enough to carry the
         /// largest known force.
         span: Option<f64>,
     },

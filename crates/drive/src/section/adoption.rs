@@ -7,11 +7,11 @@ use crate::state::Counts;
 use crate::{Model, State};
 
 impl Section<'_> {
-    /// Returns a state at this section as a state of another model at a time (s), with changed coordinates, in their units. Free
-    /// coordinates, velocities, states of blocks and the form of memories are kept. Prescribed motions are those of the other model.
+    /// Returns a state at this section as a state of model `to` at time t (s), with section coordinates changed by the amounts `by`. Free
+    /// coordinates, velocities, states of blocks and the form of slip memories are kept. Prescribed motions are those of `to`.
     ///
-    /// The energy balance is that of the original state. None if the models differ in structure, a contact is closed in one model
-    /// only, or a memory cannot have this form.
+    /// The energy balance is that of the original state. None if the models differ in structure, if a contact is closed in one model only,
+    /// or if no slip memory has the changed coordinates.
     #[must_use]
     pub fn elsewhere(&self, state: &State, by: &[f64], to: &Model, t: f64) -> Option<State> {
         let (from, layout) = (self.model, to.layout());
@@ -55,7 +55,7 @@ impl Section<'_> {
 }
 
 impl Model {
-    /// Whether states of another model have the same structure.
+    /// Whether the states of both models have the same structure.
     pub(crate) fn is_alike(&self, other: &Self) -> bool {
         let form = |model: &Self| {
             let blocks: Vec<usize> = model.blocks.iter().map(|block| block.count()).collect();

@@ -1,28 +1,28 @@
 //! Drift directions of a drive, along which only the position changes.
 //!
-//! A coordinate that no spring, actuator, coupled contact or block measures may have any origin, if the memories of its contacts
-//! move with it. Bodies that are only connected with each other drift together.
+//! If no spring, actuator, coupled contact or block depends on a coordinate, a shift of the coordinate and of its slip memories changes no
+//! force. Bodies that are only connected with each other drift together.
 
 use crate::Model;
 use crate::model::{Measure, Wire};
 
-/// Relative size below which an entry of a row counts as zero.
+/// Relative size below which the coefficient of a coordinate in a length counts as zero.
 const NOTHING: f64 = 1e-12;
 
-/// Direction in which the drive may move on from period to period.
+/// Direction in which the drive may travel from period to period.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Drift {
     /// Coordinate that measures the drift.
     pub(super) pivot: usize,
-    /// Displacement of each free coordinate per unit of that coordinate.
+    /// Displacement of each free coordinate per unit displacement of the coordinate `pivot`.
     pub(super) shape: Vec<f64>,
 }
 
-/// Returns all drift directions, each with its own coordinate.
+/// Returns all drift directions, each measured by a different coordinate.
 pub(super) fn drifts(model: &Model) -> Vec<Drift> {
     let count = model.free.len();
     let mut rows: Vec<Vec<f64>> = measures(model).map(|measure| row(measure, count)).collect();
-    // Reduced from the last coordinate, so that the first of connected coordinates measures the drift.
+    // Elimination starts with the last coordinate, so that the first of connected coordinates measures the drift.
     let mut leading: Vec<(usize, usize)> = Vec::new();
     let mut next = 0;
     for column in (0..count).rev() {

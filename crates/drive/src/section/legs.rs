@@ -4,22 +4,22 @@ use super::Unknown;
 use crate::contact::Contact;
 use stickslip_contact::{Apex, Legs, Memory, Segment};
 
-/// Returns the coordinates of a memory: heights of its knots, and slopes of pieces that no slip has made.
+/// Returns the coordinates of a slip memory: heights of its breakpoints, and slopes of pieces formed in full stick.
 pub(super) fn unknowns(contact: &Contact, c: usize, legs: &Legs) -> Vec<Unknown> {
     let heights = (0..legs.heights.len()).map(|k| Unknown::Height(c, k));
     let grown = (0..legs.slopes.len()).filter(|k| legs.sense(&contact.interface, *k).is_none());
     heights.chain(grown.map(|k| Unknown::Slope(c, k))).collect()
 }
 
-/// Relative distance of a knot from the centre or the apex below which it may be rounding.
+/// Relative distance of a breakpoint from the centre or the contact edge below which it may result from rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Whether a memory has a knot beyond rounding.
+/// Whether a slip memory has a breakpoint that cannot result from rounding.
 pub(super) fn holds(legs: &Legs, d: f64) -> bool {
     legs.heights.iter().any(|height| height.min(d - height) > ROUNDING * d)
 }
 
-/// Returns the difference of two memories in a coordinate. None if their knots differ.
+/// Returns the difference of two slip memories in one coordinate. None if their numbers of pieces or senses of slip differ.
 pub(super) fn difference(unknown: Unknown, of: [&Memory; 2], contact: &Contact) -> Option<f64> {
     let [Memory::Curve(one), Memory::Curve(other)] = of else { return None };
     let (one, other) = (one.legs(), other.legs());
@@ -34,8 +34,8 @@ pub(super) fn difference(unknown: Unknown, of: [&Memory; 2], contact: &Contact) 
     }
 }
 
-/// Returns the memory of a contact after a displacement `gone` of (d, u), m, with changed coordinates. The memory moves with u; a
-/// row of springs follows d on a straight path.
+/// Returns the slip memory of a contact after a displacement `gone` of (d, u), m, with coordinates changed by `numbers`. The memory shifts
+/// with u; a row of springs follows d on a straight path.
 pub(super) fn moved(
     contact: &Contact,
     memory: &Memory,
@@ -53,8 +53,8 @@ pub(super) fn moved(
     follow(memory, (contact, to), gone)
 }
 
-/// Returns the memory of a contact as that of another model, after a displacement `gone` of (d, u), m, with changed coordinates.
-/// Slopes of slipped pieces are those of the other material pair.
+/// Returns the slip memory of a contact for another model, displaced by `gone` in (d, u), m, with coordinates changed by `numbers`. Pieces
+/// formed by slip get the slope of the other material pair.
 pub(super) fn take_over(
     (contact, from): (&Contact, &Contact),
     memory: &Memory,
@@ -63,7 +63,7 @@ pub(super) fn take_over(
 ) -> Option<Memory> {
     let to = Apex { d: memory.apex().d + gone.0, u: memory.apex().u + gone.1 };
     if contact.inert {
-        // It has no force and needs no memory.
+        // An inert contact has no force and needs no memory.
         return Some(contact.engine.memory(&contact.interface, to));
     }
     let Memory::Curve(curve) = memory else { return follow(memory, (contact, to), gone) };
@@ -81,7 +81,7 @@ pub(super) fn take_over(
     fresh.standing(&contact.interface, to, &legs).map(Memory::Curve)
 }
 
-/// Changes the coordinates of a contact's memory.
+/// Adds the given amounts to the coordinates of a contact's slip memory.
 fn reform(legs: &mut Legs, contact: &Contact, numbers: impl Iterator<Item = (Unknown, f64)>) -> Option<()> {
     for (unknown, by) in numbers {
         match unknown {
@@ -93,7 +93,7 @@ fn reform(legs: &mut Legs, contact: &Contact, numbers: impl Iterator<Item = (Unk
     Some(())
 }
 
-/// Returns a memory moved to an apex, on a straight path if d changes.
+/// Returns a slip memory shifted with u and, if d changes, moved on a straight path to the point `to`.
 fn follow(memory: &Memory, (contact, to): (&Contact, Apex), gone: (f64, f64)) -> Option<Memory> {
     let mut memory = memory.clone();
     memory.shift(gone.1);

@@ -1,4 +1,4 @@
-//! Serialisation of a state. A run from the read state has identical bits, also in another process.
+//! Serialisation of a state. A run from the read state gives identical bits, also in another process.
 //!
 //! | bytes | content |
 //! | --- | --- |
@@ -65,8 +65,8 @@ pub enum BytesError {
 impl State {
     /// Returns the state as bytes, with a key that identifies its model.
     ///
-    /// `key` is chosen by the caller, such as the hash of a scenario that the crate `stickslip-run` computes. Supplied inputs and
-    /// commands of generators are included. Bytes are portable; the same build continues with identical bits.
+    /// `key` is chosen by the caller, such as the hash of a scenario that the crate `stickslip-run` computes. Supplied inputs and commands
+    /// of generators are included. Bytes are portable between machines; a run by the same build continues with identical bits.
     pub fn to_bytes(&self, model: &Model, key: &[u8; 32]) -> Vec<u8> {
         let mut words = Vec::new();
         write::state(self, model, &mut words);
@@ -94,7 +94,7 @@ impl State {
     }
 }
 
-/// Returns the words of intact bytes with a key.
+/// Checks header, key, length and checksum of the bytes, and returns their words.
 fn words(key: &[u8; 32], bytes: &[u8]) -> Result<Vec<u64>, BytesError> {
     let got = bytes.len() as u64;
     let short = BytesError::Length { expected: (HEAD + WORD) as u64, got };

@@ -1,7 +1,7 @@
 //! State of generators: the present cycle and commands.
 //!
-//! Successive cycles with equal parameters are a *span*. Cycle k begins at origin + k·period, computed as a product. A command
-//! with other parameters ends the span at the end of its cycle.
+//! Successive cycles with equal parameters form a *span*. Cycle k of a span begins at origin + k·period, computed as a product. A command
+//! with other parameters ends the span at the end of the cycle in progress.
 
 mod span;
 
@@ -49,23 +49,23 @@ const MOST: f64 = 1e9;
 /// Present activity of a generator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Generated {
-    /// Command for the next cycle. Its number of steps does not include a cycle in progress.
+    /// Command for the next cycle. The number of steps in the command does not include a cycle in progress.
     pub next: Command,
     /// Whether a cycle is in progress; otherwise the generator rests at 0.
     pub runs: bool,
     /// Number of cycles begun since t = 0.
     pub begun: u64,
-    /// Number of steps for a command that is given now and keeps the number. Includes a cycle that begins at this time, to which
-    /// the command would apply.
+    /// Number of steps that a command given now must contain to leave the number of remaining cycles unchanged. A cycle that begins at this
+    /// time is included, because the command would apply to it.
     pub left: Steps,
 }
 
 /// State of a generator, which determines its future pieces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Generating {
-    /// Form of its cycles, from the model.
+    /// Form of the generator's cycles, from the model.
     pub(super) cycle: Cycle,
-    /// Present command; its steps are those not yet begun.
+    /// Present command; its number of steps counts cycles not yet begun.
     pub(super) command: Command,
     /// Command for cycles that begin at this time (s) or later.
     pub(super) asked: Option<(f64, Command)>,
@@ -88,7 +88,7 @@ impl Generating {
         (generating, first)
     }
 
-    /// Returns the piece after one that ends at `end` (s).
+    /// Returns the piece that follows the piece ending at `end` (s).
     pub(super) fn next(&mut self, end: f64) -> Piece {
         if let (Some(span), false) = (self.span, self.turned) {
             self.turned = true;
@@ -100,7 +100,7 @@ impl Generating {
         self.begin(end)
     }
 
-    /// Begins a cycle at `t` (s), or rest until the next command.
+    /// Begins a cycle at `t` (s), or a rest until the next command.
     fn begin(&mut self, t: f64) -> Piece {
         self.turned = false;
         if self.command.is_idle() {
@@ -120,12 +120,12 @@ impl Generating {
         self.span.unwrap_or(fresh).piece(self.count, false)
     }
 
-    /// Returns the piece at `t` (s) in the present span, for a step beyond the present piece. None at rest.
+    /// Returns the piece at `t` (s) in the present span, for a step that ends beyond the present piece. None if the generator rests.
     pub(crate) fn piece_at(&self, t: f64) -> Option<Piece> {
         self.span.map(|span| span.piece_at(t))
     }
 
-    /// Returns the generator and its piece at a later time (s), for steps that do not end at corners.
+    /// Returns the generator and its piece at a later time `t` (s), for steps that do not end at corners.
     fn at(mut self, mut piece: Piece, t: f64) -> (Self, Piece) {
         while piece.end <= t {
             piece = self.next(piece.end);
@@ -133,7 +133,7 @@ impl Generating {
         (self, piece)
     }
 
-    /// Returns the time after `t` (s) at which cycles of another form, or rest, begin; infinite without a change.
+    /// Returns the time after `t` (s) at which cycles of another form or a rest begin; infinite without such a change.
     fn changes(&self, piece: Piece, t: f64) -> f64 {
         let (mut ahead, piece) = self.at(piece, t);
         let Some(span) = ahead.span else { return piece.end };
@@ -143,7 +143,7 @@ impl Generating {
         if ahead.span == Some(span) { f64::INFINITY } else { end }
     }
 
-    /// Whether a piece at `t` (s) is consistent with this state.
+    /// Whether `piece` is the piece of this state, and `t` (s) is not too far beyond its end.
     pub(super) fn is_on(&self, piece: &Piece, t: f64) -> bool {
         let end = self.asked.map_or(f64::INFINITY, |(since, _)| since);
         let own = match self.span {
@@ -157,9 +157,9 @@ impl Generating {
             && (self.span.is_none() || self.begun > self.count)
     }
 
-    /// Accepts a command at `t` (s) on its present piece.
+    /// Accepts a command at `t` (s) while the waveform is on `piece`.
     fn take(&mut self, command: Command, piece: &mut Piece, t: f64) {
-        // An earlier command takes effect first; of two commands at one time the later counts.
+        // A pending command of an earlier time takes effect first; of two commands at one time the later replaces the earlier.
         if let Some((_, before)) = self.asked.take_if(|(since, _)| *since < t) {
             self.command = before;
         }
@@ -174,7 +174,7 @@ impl Generating {
         }
     }
 
-    /// Accepts a command at the time at which a cycle begins: it applies to this cycle.
+    /// Accepts a command at the start of a cycle. The command applies to this cycle.
     fn replace(&mut self, span: Span, mut command: Command, piece: &mut Piece) {
         let t = piece.start;
         if !command.is_idle() && Span::of(self.cycle, &command, t).is_like(&span) {
@@ -199,7 +199,7 @@ fn rest(from: f64, end: f64) -> Piece {
 }
 
 impl Model {
-    /// Returns the generators at t = 0 by index of their waveforms; empty without generators.
+    /// Returns the generators at t = 0 by index of their waveforms; empty if the model has no generators.
     pub(super) fn generators(&self) -> Vec<Option<Generating>> {
         if self.waveforms.iter().all(|waveform| waveform.generator().is_none()) {
             return Vec::new();
@@ -235,7 +235,7 @@ impl State {
         Ok(())
     }
 
-    /// Returns the activity of generator `w`, given by the index of its waveform. None for other waveforms.
+    /// Returns the activity of the generator with waveform index `w`. None if this waveform is not a generator.
     #[must_use]
     pub fn generated(&self, w: usize) -> Option<Generated> {
         let generating = (*self.generators.get(w)?)?;
@@ -250,7 +250,7 @@ impl State {
         Some(Generated { next, runs: now.span.is_some(), begun: now.begun, left })
     }
 
-    /// Returns the piece of a waveform at `t` (s), after the present one, and advances a generator to it. Not for inputs.
+    /// Returns the piece at a later time `t` (s) and advances a generator to this piece. Not for input waveforms.
     pub(crate) fn piece_at(&mut self, w: usize, waveform: &Waveform, t: f64) -> Piece {
         match self.generators.get_mut(w) {
             Some(Some(generating)) => {
@@ -262,7 +262,7 @@ impl State {
         }
     }
 
-    /// Returns the time at which a generator next changes its cycles, s, where fixed steps end. Infinite without generators.
+    /// Returns the time of the next change in the cycles of a generator, s, where fixed steps end. Infinite without generators.
     pub(crate) fn next_change(&self) -> f64 {
         let all = self.generators.iter().zip(&self.pieces);
         let changes = all.filter_map(|(generating, piece)| Some((*generating)?.changes(*piece, self.t)));

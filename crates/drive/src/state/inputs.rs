@@ -1,7 +1,7 @@
 //! Input values that a caller supplies.
 //!
-//! A piece is supplied before the run reaches it. At its start the waveform has a corner, or a jump if the value changes. The run
-//! stops before the corner and passes it when it continues.
+//! A piece of an input is supplied before the run reaches its start. The waveform has a corner at this start, or a jump if the value
+//! changes. The run stops before this corner and passes it when it continues.
 
 use super::State;
 use crate::{Interpolation, Model, Piece, RunError, Waveform};
@@ -13,7 +13,7 @@ pub enum InputError {
     /// The waveform does not exist or is no input.
     #[error("waveform {0} is not an input")]
     NoInput(usize),
-    /// A value was given to be held to a linear input, or vice versa.
+    /// The caller gave a value to be held to a linear input, or vice versa.
     #[error("input {input} is {}: expected {}", name(*.is), takes(*.is))]
     Interpolation {
         /// Index of the waveform.
@@ -33,7 +33,7 @@ pub enum InputError {
         /// Given value.
         got: f64,
     },
-    /// The end of the piece is not after its start, or so close that the rate is not finite.
+    /// The piece does not end after its start, or is so short that the rate of change is not finite.
     #[error("the next section of input {input} begins at t = {from:e} s and cannot end at t = {until:e} s")]
     Time {
         /// Index of the waveform.
@@ -68,7 +68,7 @@ fn takes(interpolation: Interpolation) -> &'static str {
 }
 
 impl State {
-    /// Holds input `w` at a value from the present time. The present value changes nothing.
+    /// Holds input `w` at a value from the present time on. Has no effect if the input already has this value.
     pub(crate) fn hold(&mut self, model: &Model, w: usize, value: f64) -> Result<(), InputError> {
         let waveform = input(model, w, Interpolation::Held)?;
         check(waveform, w, value)?;
@@ -79,7 +79,7 @@ impl State {
         Ok(())
     }
 
-    /// Moves input `w` linearly to a value at a time (s), from the end of its last piece, or from the present time if that has no end.
+    /// Moves input `w` linearly to `value` at `until` (s), from the end of its present piece, or from now if the piece has no end.
     pub(crate) fn lead(
         &mut self,
         model: &Model,
@@ -108,7 +108,7 @@ impl State {
         Ok(())
     }
 
-    /// Returns the next piece of waveform `w` and advances a generator to it. None for an input without a supplied piece.
+    /// Returns the next piece of waveform `w`; a generator advances to this piece. None for an input without a supplied piece.
     pub(crate) fn next_piece(&mut self, w: usize, waveform: &Waveform) -> Option<Piece> {
         match waveform.interpolation() {
             None => Some(match self.generators.get_mut(w) {
@@ -119,7 +119,7 @@ impl State {
         }
     }
 
-    /// Advances every input whose piece has ended to the supplied one. Returns whether there was any.
+    /// Advances every input whose supplied piece has begun to this piece. Returns whether any input has advanced.
     pub(crate) fn take_supplied(&mut self) -> bool {
         let mut taken = false;
         for (w, supplied) in self.supplied.iter_mut().enumerate() {
@@ -130,7 +130,7 @@ impl State {
         taken
     }
 
-    /// Returns the time at which the first supplied piece ends, or a generator changes its cycles, s; infinite without any.
+    /// Returns the first time at which a supplied piece ends or a generator changes its cycles, s; infinite without either.
     pub(crate) fn next_input(&self, model: &Model) -> f64 {
         let end = |(w, supplied): (usize, &Option<Piece>)| {
             let present = self.pieces[w].end;
@@ -141,7 +141,7 @@ impl State {
         if self.generators.is_empty() { first } else { first.min(self.next_change()) }
     }
 
-    /// Whether an input has reached the end of its piece without a supplied one.
+    /// Whether an input is at the end of its piece and no further piece has been supplied.
     #[inline]
     pub(crate) fn waits_for_input(&self, model: &Model) -> bool {
         let over = |(w, supplied): (usize, &Option<Piece>)| {
@@ -162,7 +162,7 @@ impl State {
     }
 }
 
-/// Returns the waveform if it is an input of this kind.
+/// Returns the waveform if it is an input with the interpolation `asked`.
 fn input(model: &Model, w: usize, asked: Interpolation) -> Result<&Waveform, InputError> {
     let waveform = model.waveforms.get(w).ok_or(InputError::NoInput(w))?;
     match waveform.interpolation() {

@@ -4,13 +4,13 @@ use super::State;
 use crate::Model;
 use crate::model::Wired;
 
-/// Order of the components: positions, velocities, forces of growing contacts, states of blocks, balanced coordinates with growing
-/// contacts. Then follow the integrals: input work, dissipation, and for each growing contact elastic energy and friction work.
+/// Order of the components: positions, velocities, forces of contacts growing in full stick, states of blocks, balanced coordinates.
+/// Integrals follow: input work, dissipation, and for each growing contact elastic energy and friction work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Number of free coordinates.
     pub(crate) free: usize,
-    /// Number of contacts whose force is a state during growth; 0 for fixed steps and the reference method.
+    /// Number of contacts whose force is a state while they grow in full stick; 0 for fixed steps and the reference method.
     pub(crate) growing: usize,
     /// Number of states of blocks.
     pub(crate) own: usize,
@@ -21,7 +21,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// Returns the number of components on which slopes depend.
+    /// Returns the number of components on which the time derivatives depend.
     pub(crate) fn dimension(self) -> usize {
         2 * self.free + self.growing + self.own + self.balanced
     }
@@ -33,7 +33,7 @@ impl Layout {
     pub(crate) fn velocity(self, i: usize) -> usize {
         self.free + i
     }
-    /// Returns the index of F_x of a growing contact, N, for one of its identical members.
+    /// Returns the index of the tangential force of one of the identical contacts, N, while they grow in full stick.
     pub(crate) fn force(self, slot: usize) -> usize {
         2 * self.free + slot
     }
@@ -53,11 +53,11 @@ impl Layout {
     pub(crate) fn damping(self) -> usize {
         self.dimension() + 1
     }
-    /// Returns the index of the elastic energy of a growing contact, J, for one member.
+    /// Returns the index of the elastic energy of one of the identical contacts, J, while they grow in full stick.
     pub(crate) fn elastic(self, slot: usize) -> usize {
         self.dimension() + 2 + 2 * slot
     }
-    /// Returns the index of the friction work of a growing contact, J, for one member.
+    /// Returns the index of the friction work of one of the identical contacts, J, while they grow in full stick.
     pub(crate) fn friction(self, slot: usize) -> usize {
         self.dimension() + 3 + 2 * slot
     }
@@ -76,7 +76,7 @@ impl Model {
 }
 
 impl State {
-    /// Returns its layout, which lacks growing contacts after a run without event location.
+    /// Returns the layout of the state. After a run without event location it contains no forces of growing contacts.
     pub(crate) fn layout(&self, model: &Model) -> Layout {
         let layout = model.layout();
         let growing = if self.y.len() == layout.total() { layout.growing } else { 0 };

@@ -1,7 +1,7 @@
-//! Working data of a run that its next step depends on.
+//! Data of a run in progress on which its next step depends.
 //!
-//! They are part of the state, so that a resumed run, also in another process, has identical bits. All other data of a run is
-//! scratch and follows from the state.
+//! These data are part of the state, so that a resumed run, also in another process, has identical bits. All other data of a run are
+//! scratch and follow from the state.
 
 use crate::Model;
 use crate::interval::PhasePoint;
@@ -24,26 +24,26 @@ pub(crate) struct LocatedWay {
     /// Tolerance of the run.
     pub(crate) tolerance: f64,
     pub(crate) whereabouts: Whereabouts,
-    /// Method of a pair that has the present state.
+    /// Integration method of a [`Paired`](stickslip_stepper::Paired) stepper that contains the present state.
     pub(crate) hand: Hand,
-    /// Slopes at the start of the next step, if the stepper is there. They precede the last commit of the memories.
+    /// Time derivatives at the start of the next step, unless outdated. These derivatives were computed before the last commit of memories.
     pub(crate) slopes: Vec<f64>,
-    /// Memory of the step control.
+    /// Earlier errors and step lengths for the step size control.
     pub(crate) history: StepHistory,
     pub(crate) gait: Gait,
     pub(crate) allowed: Allowed,
     pub(crate) booked: Booked,
-    /// Whether the closed-form solution of the interval has been tried.
+    /// Whether a closed-form solution of the present interval has already been attempted.
     pub(crate) asked: bool,
-    /// Closed-form interval that was interrupted.
+    /// Start of a closed-form interval that was interrupted.
     pub(crate) leap: Option<Takeoff>,
-    /// Present interval of step doubling.
+    /// Present interval of step doubling on the full force law.
     pub(crate) detour: Option<Detour>,
-    /// Last interval of step doubling, finished or not.
+    /// Last interval of step doubling on the full force law, finished or not.
     pub(crate) last_detour: Detour,
     pub(crate) windows: Vec<Window>,
     pub(crate) crawl: Crawl,
-    /// Step lengths of the drive so far, if the run may end at steady steps.
+    /// Step lengths of the drive so far, if the run may end at a steady step length.
     pub(crate) steps: Option<Stepped>,
 }
 
@@ -53,17 +53,17 @@ pub(crate) struct FixedWay {
     /// Name of the stepper.
     pub(crate) stepper: &'static str,
     pub(crate) grid: Grid,
-    /// Slopes that the method keeps; empty if none.
+    /// Time derivatives that the method keeps for its next step; empty if it keeps none.
     pub(crate) slopes: Vec<f64>,
     /// Last sense of slip of each contact.
     pub(crate) senses: Vec<f64>,
     pub(crate) booked: Booked,
     pub(crate) windows: Vec<Window>,
-    /// Step lengths of the drive so far, if the run may end at steady steps.
+    /// Step lengths of the drive so far, if the run may end at a steady step length.
     pub(crate) steps: Option<Stepped>,
 }
 
-/// Grid of fixed steps: start + count · step, computed as a product.
+/// Time grid of fixed steps: start + count · step, computed as a product.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Grid {
     /// Start, s.
@@ -79,16 +79,16 @@ pub(crate) struct Grid {
 pub(crate) enum Whereabouts {
     /// At the state.
     Here,
-    /// Outdated: the state has moved by closed forms, or laws have changed.
+    /// Stepper data are outdated: the state has moved by closed forms, or force laws have changed.
     Behind,
 }
 
 /// Data for the choice of the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gait {
-    /// Largest step since the last event, or since a graded step was rejected, s.
+    /// Largest accepted step since the last event or the last rejection of a graded step (stages concentrated at one end), s.
     pub(crate) proven: f64,
-    /// Whether even steps become shorter towards a singular moment.
+    /// Whether steps with evenly distributed stages become shorter towards a singular time.
     pub(crate) ahead: Ahead,
     /// Whether steps must stay below the stability limit.
     pub(crate) grip: Grip,
@@ -99,32 +99,32 @@ impl Gait {
     pub(crate) const FRESH: Self = Self { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips };
 }
 
-/// Effect of a singular moment on even steps.
+/// Effect of a singular time ahead on steps with evenly distributed stages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ahead {
     /// No effect yet.
     Clear,
-    /// An even step was rejected because of it.
+    /// A step was rejected because of the singular time.
     Shortens,
 }
 
 /// Constraint of the bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Grip {
-    /// No restoring force: all contacts slip under prescribed normal loads, and there are no links.
+    /// No restoring force acts: all contacts slip under prescribed normal loads, and there are no springs or actuators.
     Slips,
-    /// There is a restoring force, or no contact.
+    /// A restoring force acts, or the model has no contact.
     Sticks,
-    /// There is a restoring force, and all free coordinates are at rest.
+    /// A restoring force acts, and all free coordinates are at rest.
     Rests,
 }
 
-/// Allowed absolute errors of a step, limited by rounding at the last event or rejection.
+/// Allowed absolute errors of a step, bounded below by rounding and computed at the last event or rejection.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Allowed {
     /// Allowed error of each component.
     pub(crate) scale: Vec<f64>,
-    /// Largest power of prescribed motions on contacts at the last corner, W.
+    /// Largest power that prescribed motions transfer to contacts at the last corner, W.
     pub(crate) power: f64,
 }
 
@@ -143,7 +143,7 @@ pub(crate) struct Booked {
     pub(crate) last: Vec<f64>,
     /// Time for the blocks, s.
     pub(crate) blocks: f64,
-    /// Whether the memories of contacts of closed form are up to date.
+    /// Whether the slip memories of contacts with a closed form are up to date.
     pub(crate) books: Books,
 }
 
@@ -155,7 +155,7 @@ impl Booked {
     }
 }
 
-/// State of the memories of contacts of closed form.
+/// State of the slip memories of contacts with a closed form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Books {
     /// Up to date.
@@ -168,11 +168,11 @@ pub(crate) enum Books {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Takeoff {
     pub(crate) from: PhasePoint,
-    /// Input work until then, J.
+    /// Input work up to the start of the interval, J.
     pub(crate) input: f64,
 }
 
-/// Close events of one component: time of the first (s) and their number.
+/// Window that counts close events of one component: time of the first event (s) and number of events.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Window {
     pub(crate) start: f64,
@@ -191,16 +191,16 @@ pub(crate) struct Detour {
 }
 
 impl Detour {
-    /// Value before the first interval.
+    /// Value before the first interval of step doubling.
     pub(crate) const NONE: Self = Self { end: f64::NEG_INFINITY, length: 0.0, step: 0.0 };
 }
 
-/// Progress of attempts.
+/// Progress of the run over many attempted steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crawl {
-    /// Last time at which progress was sufficient, s.
+    /// Time at which progress was last sufficient, s.
     pub(crate) since: f64,
-    /// Number of attempts since then.
+    /// Number of attempted steps since that time.
     pub(crate) attempts: u64,
 }
 
@@ -216,11 +216,11 @@ impl Window {
 pub(crate) struct Stepped {
     /// Index of the next end of a period.
     pub(crate) next: f64,
-    /// Origin and position at the end of the last period, m, kept separate for accurate differences.
+    /// Shift of the origin and position relative to it at the end of the last period, m, kept apart for accurate differences.
     pub(crate) place: Option<(f64, f64)>,
     /// Last step length, m.
     pub(crate) step: Option<f64>,
-    /// Number of successive steps that agree with the previous one.
+    /// Number of successive step lengths that agree with the previous one.
     pub(crate) agreed: u32,
 }
 

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 /// Segments between corners, numbered from 0 at the start of the period that contains the delay.
 ///
-/// Corner n is at k·period + origin, computed as a product, so it stays exact after many periods.
+/// The time of a corner is k·period + origin, computed as a product, so it stays exact after many periods.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corners {
     /// Period, s; 0 for a table.
@@ -15,15 +15,15 @@ pub(super) struct Corners {
     per_period: u64,
     /// Times of the corners in the first period, s.
     origins: Vec<f64>,
-    /// Values at start and end of each segment, and its form.
+    /// Values at start and end of each segment, and the form of the segment.
     ways: Vec<((f64, f64), Way)>,
-    /// Sines of sinusoidal segments, which start anew in each.
+    /// Sines on sinusoidal segments; their time starts at 0 in each segment.
     carrier: Option<Carrier>,
-    /// Value at the start, if the first segment begins with another value than that of its corner.
+    /// Value at the start of the waveform, if it differs from the value at the corner of the first segment.
     lead: Option<f64>,
-    /// Value before the jump, for a period that begins with a jump.
+    /// Value before the jump, if the period begins with a jump.
     foot: Option<f64>,
-    /// First and last segment in use, start of the first and end of the last.
+    /// First and last segment in use; start of the first and end of the last one, s.
     first: u64,
     last: u64,
     start: f64,
@@ -33,9 +33,9 @@ pub(super) struct Corners {
 /// Segment between two corners.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Leg {
-    /// Start, s, relative to the period, or to the whole without a period.
+    /// Start, s, relative to the start of the period, or of the waveform if it has no period.
     pub(super) start: f64,
-    /// Values at its start and its end.
+    /// Values at the start and the end of the segment.
     pub(super) values: (f64, f64),
     /// Form of the segment.
     pub(super) way: Way,
@@ -49,7 +49,7 @@ impl Leg {
 }
 
 impl Corners {
-    /// Copies other corners, reusing the memory.
+    /// Copies another set of corners, reusing allocated memory.
     pub(super) fn copy(&mut self, from: &Self) {
         let Self { period, per_period, origins, ways, carrier, lead, foot, first, last, start, stop } = from;
         self.origins.clone_from(origins);
@@ -63,8 +63,8 @@ impl Corners {
 
     /// Returns the corners of periodic segments that fill the period.
     ///
-    /// A segment of zero length is a jump and is removed. If it is the first one, the value before it is held before the first
-    /// and after the last period.
+    /// A segment of zero length is a jump and is removed. If the first segment is a jump, the value before the jump is held before the
+    /// first and after the last period.
     pub(super) fn periodic(legs: &[Leg], timing: &Timing) -> Self {
         let period = timing.period;
         let ends = legs.iter().skip(1).map(|leg| leg.start).chain([period]);
@@ -93,7 +93,7 @@ impl Corners {
         corners
     }
 
-    /// Returns corners of segments that occur once, after a delay (s), with the last segment ending at `end` (s). None without segments.
+    /// Returns the corners of segments that occur once, after a delay (s). The last segment ends at `end` (s). None without segments.
     pub(super) fn once(legs: &[Leg], end: f64, delay: f64) -> Option<Self> {
         let (first, last) = (legs.first()?, (legs.len() as u64).checked_sub(1)?);
         let end = delay + end;
@@ -112,12 +112,12 @@ impl Corners {
         })
     }
 
-    /// Sets the sines of sinusoidal segments.
+    /// Sets the sines on sinusoidal segments.
     pub(super) fn carried_by(self, carrier: Option<Carrier>) -> Self {
         Self { carrier, ..self }
     }
 
-    /// Starts with this value on the second segment, whose line is extended back to the start.
+    /// Starts the waveform with this value in the second segment, whose line is extended back to the start.
     pub(super) fn led_by(self, value: f64) -> Self {
         let first = self.first.max(1);
         Self { lead: Some(value), first, last: self.last.max(first), ..self }
@@ -128,7 +128,7 @@ impl Corners {
         self.ways.iter().all(|(_, way)| *way == Way::Straight)
     }
 
-    /// Returns the segments of one period as given; of those with zero length only the first.
+    /// Returns the segments of one period as given; if several segments have zero length, only the first of these.
     pub(super) fn legs(&self) -> impl Iterator<Item = Leg> {
         let ways = self.origins.iter().zip(&self.ways);
         let jump = self.foot.zip(ways.clone().next());
@@ -140,7 +140,7 @@ impl Corners {
         }))
     }
 
-    /// Returns the number of segments in a period, or of all without a period.
+    /// Returns the number of segments in a period, or of all segments if there is no period.
     pub(super) fn count(&self) -> usize {
         self.ways.len()
     }
@@ -152,7 +152,7 @@ impl Corners {
         self.origins.iter().zip(ends).map(|(start, end)| end - start).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns value and derivatives on a segment that is stored here.
+    /// Returns value and derivatives at `t` (s) on a segment that is stored in `self`.
     pub(super) fn on(&self, placed: &Placed, t: f64) -> Sample {
         let (values, way) = self.ways.get(placed.place()).copied().unwrap_or(((0.0, 0.0), Way::Straight));
         let (from, to) = ((placed.from, values.0), (placed.to, values.1));
@@ -169,13 +169,13 @@ impl Corners {
         (self.last - self.first).saturating_add(2)
     }
 
-    /// Returns the piece at a time within the window.
+    /// Returns the piece at a time `t` (s) between start and stop.
     pub(super) fn piece_at(&self, t: f64) -> Piece {
         // For extreme times the index saturates.
         self.piece((self.segment_at(t).clamp(self.first, self.last) - self.first).saturating_add(1))
     }
 
-    /// Returns the piece with this index; 1 is the first segment in use.
+    /// Returns the piece with this index. Index 1 is the first segment in use.
     pub(super) fn piece(&self, index: u64) -> Piece {
         let n = self.first.saturating_add(index.saturating_sub(1)).min(self.last);
         let (from, to) = (self.corner(n), self.corner(n.saturating_add(1)));
@@ -191,7 +191,7 @@ impl Corners {
         Piece { start, end: to.0.min(self.stop), index, law }
     }
 
-    /// Returns the value after a jump at the end of the last segment. None if the end is no corner.
+    /// Returns the value after a jump at the end of the last segment. None if the waveform does not end at a corner.
     pub(super) fn beyond(&self) -> Option<f64> {
         let next = self.last.checked_add(1)?;
         let corner = self.period > 0.0 && self.corner(next) == self.stop;
@@ -199,12 +199,12 @@ impl Corners {
         corner.then(|| foot.or(self.ways.get(self.place(next)).map(|(values, _)| values.0)))?
     }
 
-    /// Returns the value before a jump at the start. None without such a jump.
+    /// Returns the value before a jump at the start of the waveform. None without such a jump.
     pub(super) fn ahead(&self) -> Option<f64> {
         self.foot.filter(|_| self.place(self.first) == 0 && self.corner(self.first) == self.start)
     }
 
-    /// Returns the time of corner `n`, the start of segment `n`.
+    /// Returns the time of corner `n`, s, at which segment `n` starts.
     fn corner(&self, n: u64) -> f64 {
         let origin = self.origins.get(self.place(n)).copied().unwrap_or(f64::INFINITY);
         (n / self.per_period) as f64 * self.period + origin
@@ -214,7 +214,7 @@ impl Corners {
         usize::try_from(n % self.per_period).unwrap_or(usize::MAX)
     }
 
-    /// Returns the segment on [start, end) that contains `t`.
+    /// Returns the index of the segment [start, end) that contains `t` (s).
     fn segment_at(&self, t: f64) -> u64 {
         let origin = self.origins.first().copied().unwrap_or(0.0);
         let periods = if self.period > 0.0 { ((t - origin) / self.period).floor().max(0.0) } else { 0.0 };
@@ -234,7 +234,7 @@ impl Corners {
         n
     }
 
-    /// Ends the waveform at `stop`, or at a corner within rounding of it.
+    /// Ends the waveform at `stop` (s), or at a corner that differs from `stop` by rounding.
     fn stop_at(&mut self, stop: f64) {
         let slack = SLACK * self.period + 2.0 * f64::EPSILON * stop.abs();
         let n = self.segment_at(stop);
@@ -249,10 +249,10 @@ impl Corners {
     }
 }
 
-/// Distance from a corner that counts as rounding, in periods.
+/// Largest distance from a corner that counts as rounding, in periods.
 const SLACK: f64 = 1e-13;
 
-/// Returns the time by which the phase advances the waveform, within one period. Equals a knot if it is within rounding of it.
+/// Returns the time by which the phase advances the waveform, s, within one period. A corner within rounding replaces the time.
 fn shift(knots: &[f64], timing: &Timing) -> f64 {
     let period = timing.period;
     let shift = (timing.phase / TAU).rem_euclid(1.0) * period;

@@ -1,4 +1,4 @@
-//! Chain of pieces and properties that a kind of waveform computes from its parameters.
+//! Chain of pieces and further properties that each kind of waveform computes from its parameters.
 
 use super::corners::Corners;
 use super::shape::{Interpolation, Sines};
@@ -13,7 +13,7 @@ pub(super) struct Course {
     pub(super) period: Option<f64>,
     /// Smallest and largest value over all time, or bounds of them.
     pub(super) range: (f64, f64),
-    /// Period of the shortest wave within a smooth piece, s; infinite for polynomials, whose features the error estimate detects.
+    /// Period of the shortest wave in a smooth piece, s; infinite for polynomials, whose shape the error estimate of a step detects.
     pub(super) wave: f64,
     /// Whether the value has jumps.
     pub(super) has_jumps: bool,
@@ -26,14 +26,14 @@ pub(super) enum Chain {
     Corners(Corners),
     /// One sinusoidal piece without corners.
     Sines(Sines),
-    /// No piece: one value before this time (s), another one after it.
+    /// A jump only: one constant value before this time (s), another one after it.
     Step(f64),
-    /// Pieces supplied during the run; before, the initial value.
+    /// Pieces supplied during the run; the initial value until then.
     Supplied(Interpolation),
 }
 
 impl Course {
-    /// Copies another one, reusing the memory.
+    /// Copies another chain and its properties, reusing allocated memory.
     pub(super) fn copy(&mut self, from: &Self) {
         let Self { chain, ends, period, range, wave, has_jumps } = from;
         match (&mut self.chain, chain) {

@@ -1,4 +1,4 @@
-//! Errors of waveforms, and common checks.
+//! Errors of waveforms, and checks that several shapes share.
 
 /// Reason why a waveform is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -21,7 +21,7 @@ pub enum WaveformError {
         /// Given value, s.
         got: f64,
     },
-    /// The turn is negative or leaves no time for the other segments.
+    /// The duration of the turn is negative or leaves no time for the other segments.
     #[error("turn: expected a time of at least 0 and below the period of {period} s, got {got}")]
     Turn {
         /// Period, s.
@@ -29,7 +29,7 @@ pub enum WaveformError {
         /// Given value, s.
         got: f64,
     },
-    /// Rise, hold and fall are zero in total, or longer than the period.
+    /// The sum of rise, hold and fall is zero or longer than the period.
     #[error(
         "rise: expected rise, hold and fall above 0 and within the period of {period} s, got {got} s together"
     )]
@@ -39,7 +39,7 @@ pub enum WaveformError {
         /// Sum of rise, hold and fall, s.
         got: f64,
     },
-    /// The phases of constant jerk are zero or too long.
+    /// The duration of the phases of constant jerk is zero or too long.
     #[error(
         "rounding: expected a time above 0 and at most a quarter of the shorter stroke time, {most} s, got {got}"
     )]

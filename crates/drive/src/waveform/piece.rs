@@ -5,15 +5,15 @@ use super::shape::Law;
 use super::straight::{Line, Straight};
 use super::{Corners, Sample, Waveform};
 
-/// A smooth piece of a waveform on [start, end). The state holds the present piece of each waveform: at a corner it distinguishes
-/// the velocities before and after.
+/// A smooth piece of a waveform on [start, end). The state holds the present piece of each waveform. At a corner, the piece determines
+/// whether the velocity before or after the corner applies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// Start, s; [`f64::NEG_INFINITY`] for the value before the waveform starts.
     pub start: f64,
-    /// End, s; [`f64::INFINITY`] if it has none.
+    /// End, s; [`f64::INFINITY`] if the piece has no end.
     pub end: f64,
-    /// Index in the chain; 0 for the value before the start and for all pieces of an input.
+    /// Index of the piece in the chain; 0 for the value before the start and for all pieces of an input.
     pub index: u64,
     pub(super) law: Law,
 }
@@ -25,26 +25,26 @@ impl Piece {
         Self { start, end: f64::INFINITY, index: 0, law }
     }
 
-    /// Returns a linear piece between two points (time in s, value), with the same bits as a segment of a sawtooth.
+    /// Returns a linear piece between two points (time in s, value), with bits identical to a segment of a sawtooth.
     pub(crate) fn straight(from: (f64, f64), to: (f64, f64)) -> Self {
         Self { start: from.0, end: to.0, index: 0, law: Law::Straight(Straight::between(from, to)) }
     }
 
-    /// Returns the data of a supplied piece: start and end, s, and its linear law.
+    /// Returns the data of a supplied piece: start and end, s, and the coefficients of its linear law.
     pub(crate) fn supplied(&self) -> [f64; 7] {
         let Law::Straight(straight) = &self.law else { return [f64::NAN; 7] };
         let [a, b, c, d, rate] = straight.numbers();
         [self.start, self.end, a, b, c, d, rate]
     }
 
-    /// Returns a supplied piece from its data. None if its end precedes its start or a value is not finite.
+    /// Returns a supplied piece from its data. None if the end precedes the start or a coefficient is not finite.
     pub(crate) fn of_supplied([start, end, a, b, c, d, rate]: [f64; 7]) -> Option<Self> {
         let way = [a, b, c, d, rate];
         let goes_on = start <= end && way.iter().all(|number| number.is_finite());
         goes_on.then_some(Self { start, end, index: 0, law: Law::Straight(Straight::of(way)) })
     }
 
-    /// Returns the line of the value if its rate is constant.
+    /// Returns the piece as a straight line, if its rate is constant.
     pub(crate) fn line(&self) -> Option<Line> {
         match &self.law {
             Law::Straight(straight) => Some(straight.line()),
@@ -52,14 +52,14 @@ impl Piece {
         }
     }
 
-    /// Whether it follows the sines of its waveform.
+    /// Whether the piece follows the sines of its waveform.
     pub(crate) fn is_sines(&self) -> bool {
         self.law == Law::Sines
     }
 }
 
 impl Waveform {
-    /// Returns the shortest time scale, s: the shortest piece or wave; infinite if it never moves.
+    /// Returns the shortest time scale, s: the shortest piece or wave. Infinite if the waveform never moves.
     #[must_use]
     pub fn quickest(&self) -> f64 {
         let pieces = self.corners().map_or(f64::INFINITY, Corners::shortest);
@@ -75,7 +75,7 @@ impl Waveform {
         self.sample(next, next.start).value - self.sample(piece, end).value
     }
 
-    /// Returns its sines at `t` on any piece; zeros if it has none.
+    /// Returns the sum of sines of the waveform at `t` (s); zeros if it has no sines.
     pub(crate) fn sines_at(&self, t: f64) -> Sample {
         match &self.course.chain {
             Chain::Sines(sines) => sines.at(&self.timing, t),
@@ -83,7 +83,7 @@ impl Waveform {
         }
     }
 
-    /// Returns a bound of the third derivative of its sines, per s³; 0 if it has none.
+    /// Returns a bound on the third derivative of the sum of sines, per s³; 0 without sines.
     pub(crate) fn sines_jerk(&self) -> f64 {
         match &self.course.chain {
             Chain::Sines(sines) => sines.jerk(&self.timing),
@@ -91,7 +91,7 @@ impl Waveform {
         }
     }
 
-    /// Returns the piece with this index, with the same bits as by any other way. None if it does not exist, or for an input.
+    /// Returns the piece with this index, bit-identical to the piece in the chain. None for an input or an index beyond the chain.
     pub(crate) fn piece(&self, index: u64) -> Option<Piece> {
         let last = match &self.course.chain {
             Chain::Corners(corners) => corners.after(),
@@ -108,7 +108,7 @@ impl Waveform {
         }
     }
 
-    /// Returns the piece that holds the final value of a supplied one, or that piece itself if it has no end.
+    /// Returns the piece that holds the final value of a supplied piece. A piece without an end is returned unchanged.
     pub(super) fn kept(&self, piece: &Piece) -> Piece {
         if piece.end == f64::INFINITY {
             return *piece;

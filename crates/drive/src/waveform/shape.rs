@@ -33,17 +33,17 @@ use super::course::Course;
 use super::{Timing, WaveformError};
 use sine::Sine;
 
-/// Shape of one period, or of the whole without a period. Values are in SI units of the driven quantity, angles in rad.
+/// Shape of one period, or of the whole waveform without a period. Values are in SI units of the driven quantity, angles in rad.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// Linear from 0 to the stroke; linear back in the flyback at the end of the period.
+    /// Sawtooth: linear from 0 to the stroke, then linear return during the flyback at the end of the period.
     Sawtooth {
         /// Peak-to-peak value, of any sign.
         stroke: f64,
         /// Duration of the return stroke, s, at least 0 (a jump) and below the period.
         flyback: f64,
     },
-    /// Linear from 0 to the stroke in half the period, linear back.
+    /// Triangle: linear from 0 to the stroke in half the period, then linear return.
     Triangle {
         /// Peak-to-peak value, of any sign.
         stroke: f64,
@@ -69,14 +69,14 @@ pub enum Shape {
         /// Duration of the return stroke, s, at least 0 (a jump) and below the period.
         flyback: f64,
     },
-    /// Constant accelerations: a parabola from rest at 0, a turn at the stroke, and the mirrored parabola.
+    /// Waveform of constant accelerations: a parabola from rest at 0, a turn at the stroke, and the mirrored parabola.
     Parabola {
         /// Peak-to-peak value, of any sign.
         stroke: f64,
         /// Duration of the turn, s, at least 0 (a cusp) and below the period.
         turn: f64,
     },
-    /// Trapezoid: linear from 0 to the stroke, held, linear back, at rest until the end of the period.
+    /// Trapezoid: linear rise from 0 to the stroke, hold, linear fall, then rest until the end of the period.
     Trapezoid {
         /// Peak-to-peak value, of any sign.
         stroke: f64,
@@ -96,7 +96,7 @@ pub enum Shape {
         /// Duration of each phase of constant jerk, s, above 0 and at most a quarter of the shorter stroke.
         rounding: f64,
     },
-    /// Rate-limited sawtooth, which lags behind after each flyback.
+    /// Rate-limited sawtooth, which lags behind the requested sawtooth after each flyback.
     Limited {
         /// Peak-to-peak value of the requested sawtooth, of any sign.
         stroke: f64,
@@ -121,26 +121,26 @@ pub enum Shape {
         points: Vec<(f64, f64)>,
         /// Cubics (Fritsch and Butland 1984) if true, otherwise linear pieces.
         smooth: bool,
-        /// Repeated, with the last point at the time of the first, or once.
+        /// Whether the curve is repeated, with the last point at the time of the first.
         repeated: bool,
     },
-    /// Pattern of runs of a periodic shape and rests, repeated.
+    /// Repeated pattern of runs of a periodic shape and rests.
     Pattern {
         /// Shape, with the period of the timing.
         carrier: Box<Shape>,
         /// Runs and rests in order.
         parts: Vec<Section>,
     },
-    /// Linear between points (time after the delay in s, value), constant before the first and after the last.
+    /// Linear between points (time after the delay in s, value), constant before the first point and after the last.
     Table {
         /// Points with increasing times; exactly two points at one time are a jump.
         points: Vec<(f64, f64)>,
     },
-    /// Values that a caller supplies during the run; before, or without a caller, the initial value.
+    /// Values that a caller supplies during the run; the initial value until then.
     Input {
         /// Value from t = 0, within the range.
         initial: f64,
-        /// Smallest and largest allowed value. Checks before a run cover the whole range.
+        /// Smallest and largest allowed value. Checks before a run cover this whole range.
         range: (f64, f64),
         /// Interpolation between values.
         interpolation: Interpolation,
@@ -150,7 +150,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Returns its timing: as given, or as it follows from the shape.
+    /// Returns the timing of the waveform: the given timing, or the timing that follows from the shape.
     pub(super) fn timing(&self, given: Timing) -> Timing {
         match self {
             Self::Generator(generator) => generator.timing(),
@@ -160,7 +160,7 @@ impl Shape {
         }
     }
 
-    /// Checks its parameters and returns its chain of pieces.
+    /// Checks the parameters of the shape and returns the chain of pieces.
     pub(super) fn course(&self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check()?;
         match *self {

@@ -4,8 +4,8 @@ use super::Sample;
 
 /// Linear segment between two corners.
 ///
-/// It is evaluated from the end with the smaller magnitude, so rounding does not change a sign near 0. The value at the other end
-/// is exact.
+/// The value is evaluated from the end with the smaller magnitude, so rounding does not change a sign near 0. The value at the other end is
+/// exact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Straight {
     anchor: (f64, f64),
@@ -38,12 +38,12 @@ impl Straight {
         Self { anchor, other, rate }
     }
 
-    /// Returns a constant `value`; `time` is any finite time.
+    /// Returns a segment with a constant `value`; `time` is any finite time.
     pub(super) fn held(time: f64, value: f64) -> Self {
         Self { anchor: (time, value), other: (time, value), rate: 0.0 }
     }
 
-    /// Returns its data: both ends and the rate.
+    /// Returns the data of the segment: both ends and the rate.
     pub(super) fn numbers(&self) -> [f64; 5] {
         [self.anchor.0, self.anchor.1, self.other.0, self.other.1, self.rate]
     }
@@ -53,7 +53,7 @@ impl Straight {
         Self { anchor: (time, value), other: (other, there), rate }
     }
 
-    /// Returns its line; the other end is not exact.
+    /// Returns the segment as a line; the value at the other end is not exact.
     pub(super) fn line(&self) -> Line {
         Line { time: self.anchor.0, value: self.anchor.1, rate: self.rate }
     }

@@ -6,14 +6,14 @@ use std::f64::consts::TAU;
 /// Timing of a waveform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timing {
-    /// Period, s, above 0; ignored for a table or an input.
+    /// Period, s, above 0; not used for a table or an input.
     pub period: f64,
-    /// Start, s; before it the first value is held. Default 0; 0 for an input.
+    /// Start, s; the first value is held until then. Default 0; must be 0 for an input.
     pub delay: f64,
-    /// Phase, rad, which advances the waveform by phase/2π periods. Default 0; 0 for a table or an input.
+    /// Phase, rad, which advances the waveform by phase/2π periods. Default 0; must be 0 for a table or an input.
     pub phase: f64,
-    /// Number of periods after which the last value is held, above 0. None means endless, and is required for a table or an
-    /// input. A jump at the end of the last period still occurs.
+    /// Number of periods after which the last value is held, above 0. None means endless, and is required for a table or an input. A jump
+    /// at the end of the last period still occurs.
     pub cycles: Option<f64>,
 }
 
@@ -24,7 +24,7 @@ impl Timing {
         Self { period, delay: 0.0, phase: 0.0, cycles: None }
     }
 
-    /// Returns the stop time, s; infinite if endless.
+    /// Returns the stop time, s; infinite without a limited number of periods.
     pub(super) fn stop(&self) -> f64 {
         self.cycles.map_or(f64::INFINITY, |n| n * self.period + self.delay)
     }

@@ -41,7 +41,7 @@ fn lines(points: &[Point]) -> Vec<MachineLine<'static>> {
     }
 }
 
-/// Values without a holding force and values with warnings, grouped by reason.
+/// Returns the values without a holding force and values with warnings, grouped by reason.
 fn faults(points: &[Point]) -> Vec<(String, Vec<f64>)> {
     let kinds = points.iter().flat_map(|point| {
         point.ways.iter().filter_map(|way| Some((point.value, way.as_ref().err()?.kind().to_owned())))

@@ -46,7 +46,7 @@ pub fn draw<'a>(
     pictured((job, NAME), (NAME, &format!("{}: sections through the optimum", job.title())), &machine, look)
 }
 
-/// Linear interpolation of a section; NaN outside its range.
+/// Returns a section by linear interpolation; NaN outside its range.
 fn at(points: &[(f64, f64)], x: f64) -> f64 {
     let within = |pair: &&[(f64, f64)]| pair[0].0 <= x && x <= pair[1].0;
     let between = |pair: &[(f64, f64)]| {

@@ -76,12 +76,12 @@ pub fn pages(exhibits: &[Exhibit], scenarios: &Path, out: &Path) -> io::Result<V
     Ok(pages)
 }
 
-/// Name of a picture file by its stem.
+/// Returns the name of a picture file by its stem.
 fn picture_file(stem: &str, colours: Colours, format: Format) -> String {
     Look::default().file_of(stem, colours, format)
 }
 
-/// HTML of a plot that follows the reader's colour theme.
+/// Returns the HTML of a plot that follows the reader's colour theme.
 fn shown(exhibit: &Exhibit, stem: &str, width: u32) -> String {
     let path = |colours| link(&Path::new(&exhibit.name).join(picture_file(stem, colours, Format::Png)));
     format!(

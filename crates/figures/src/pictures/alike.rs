@@ -25,7 +25,7 @@ fn are_alike(a: &[&[f64]], b: &[&[f64]]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Legend entry of a group.
+/// Returns the legend entry of a group.
 pub(crate) fn name(names: &[&str]) -> String {
     match names {
         [only] => (*only).to_owned(),

@@ -46,7 +46,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Drive, drive_figure(&title, &course))?)
 }
 
-/// Time range of the last two complete periods, or of the whole run without periods; and text for the title.
+/// Returns the time range of the last two complete periods, or of the whole run without periods; and a text for the title.
 fn span(job: &Job, kept: &Kept) -> ((f64, f64), String) {
     let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
     let periods = waveform.and_then(|waveform| Periods::until(&waveform.part, kept.end()));
@@ -60,7 +60,7 @@ fn span(job: &Job, kept: &Kept) -> ((f64, f64), String) {
     }
 }
 
-/// Free strokes that follow a waveform, relative to the start of the range. Stacks with a driver are left out.
+/// Returns the free strokes that follow a waveform, relative to the start of the range. Stacks with a driver are left out.
 fn strokes(job: &Job, series: &Series) -> Vec<(String, Vec<f64>)> {
     let scene = &job.scenario.scene;
     let of = |(k, piezo): (usize, &Piezo)| {
@@ -77,7 +77,7 @@ fn strokes(job: &Job, series: &Series) -> Vec<(String, Vec<f64>)> {
     job.scenario.stacks.iter().enumerate().filter_map(of).collect()
 }
 
-/// Drivers of the stacks.
+/// Returns the drivers of the stacks.
 fn supplies<'a>(job: &'a Job, series: &'a Series) -> Vec<Supply<'a>> {
     let of = |piezo: &'a Piezo| {
         let (driver, _) = (piezo.driver?, piezo.block?);
@@ -100,7 +100,7 @@ fn supplies<'a>(job: &'a Job, series: &'a Series) -> Vec<Supply<'a>> {
     job.scenario.stacks.iter().filter_map(of).collect()
 }
 
-/// Commanded voltage, V; empty if it does not follow a waveform.
+/// Returns the commanded voltage, V; empty if the voltage does not follow a waveform.
 fn command(job: &Job, piezo: &Piezo, time: &[f64]) -> Vec<f64> {
     let (Varying::Follows(w), Some(gain)) = (piezo.command, piezo.stack.stroke_per_volt) else {
         return Vec::new();
@@ -110,7 +110,7 @@ fn command(job: &Job, piezo: &Piezo, time: &[f64]) -> Vec<f64> {
     time.iter().map(at).collect()
 }
 
-/// Time ranges in which a condition holds at all samples.
+/// Returns the time ranges in which a condition holds at all samples.
 fn spans(time: &[f64], is: impl Fn(usize) -> bool) -> Vec<(f64, f64)> {
     let mut spans: Vec<(f64, f64)> = Vec::new();
     for i in 1..time.len() {
@@ -125,14 +125,14 @@ fn spans(time: &[f64], is: impl Fn(usize) -> bool) -> Vec<(f64, f64)> {
     spans
 }
 
-/// Friction limit of the only contact, N; `None` unless its load is constant.
+/// Returns the friction limit of the only contact, N; `None` unless its load is constant.
 fn limit(job: &Job) -> Option<f64> {
     let is_only = job.model.contacts().count() == 1 && job.has_constant_load(0);
     let count = f64::from(job.scenario.scene.contacts.first()?.part.count);
     job.model.contact_natural(0).filter(|_| is_only).map(|natural| count * natural.force)
 }
 
-/// Columns that the plot requires.
+/// Returns the columns that the plot requires.
 fn needs(job: &Job) -> Vec<String> {
     let drivers = job.scenario.stacks.iter().filter(|piezo| piezo.block.is_some() && piezo.driver.is_some());
     let supplies =

@@ -16,7 +16,7 @@ pub(super) const KIND: Kind = Kind {
 /// Quantities of the energy balance.
 const COLUMNS: [&str; 6] = ["input_J", "kinetic_J", "elastic_J", "friction_J", "damping_J", "error_J"];
 
-/// Draws the energy balance. For a long run the last period is enlarged next to it, with work and losses counted from its start.
+/// Draws the energy balance. For a long run, a second column enlarges the last period, with work and losses since its start.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let broken = kept.series.broken(job.scenario.written.window);

@@ -53,7 +53,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Fields, fields_figure(&title, &moments))?)
 }
 
-/// Rings of equal state; their edges are midpoints between radii.
+/// Returns the rings of equal state; their edges are midpoints between radii.
 fn zones(moment: &OverRadius) -> Vec<FieldsZone> {
     let r = &moment.columns[0];
     let mut zones: Vec<FieldsZone> = Vec::new();

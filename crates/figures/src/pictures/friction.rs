@@ -71,12 +71,12 @@ impl Course {
         course
     }
 
-    /// Largest friction work per area, J/m².
+    /// Returns the largest friction work per area, J/m².
     fn most(&self) -> f64 {
         self.work.iter().copied().filter(|work| work.is_finite()).fold(0.0, f64::max)
     }
 
-    /// Contacts with friction work, at most [`MOST`] with the largest values, in their order.
+    /// Returns the contacts with friction work, at most [`MOST`] with the largest values, in their order.
     fn busiest(mut courses: Vec<Self>) -> Vec<Self> {
         let mut most: Vec<f64> = courses.iter().map(Self::most).collect();
         most.sort_by(|a, b| b.total_cmp(a));
@@ -88,7 +88,7 @@ impl Course {
         courses
     }
 
-    /// Equally spaced times with their names.
+    /// Returns the equally spaced times with their names.
     fn marks(&self) -> Vec<(f64, String)> {
         let chosen: Vec<f64> = curves::chosen(&self.moments, MARKED).into_iter().collect();
         let told = apart(&chosen, "s");

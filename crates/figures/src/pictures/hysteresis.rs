@@ -24,13 +24,13 @@ struct Curve {
     limit: Option<f64>,
     /// Palette index.
     place: usize,
-    /// Whether it is an earlier period, drawn pale in the background.
+    /// Whether the curve is an earlier period, drawn pale in the background.
     is_pale: bool,
 }
 
 /// Relative tolerance for the end of a period.
 const SAME: f64 = 1e-9;
-/// Line width of the last period and of earlier ones.
+/// Line width of the last period and of earlier periods.
 const BOLD: f64 = 1.15;
 const FINE: f64 = 0.9;
 
@@ -72,7 +72,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Loop, figure)?)
 }
 
-/// Curves of a group of equal contacts.
+/// Returns the curves of a group of equal contacts.
 fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bool)) -> Vec<Curve> {
     let named = |c: &usize| {
         let (name, _) = job.model.contacts().nth(*c)?;
@@ -122,20 +122,20 @@ fn curves(job: &Job, kept: &Kept, group: &[usize], (place, is_alone): (usize, bo
     }
 }
 
-/// Points of a path inside the output window. Without events the path between the window and the first and last row of the run is unknown.
+/// Returns the points of a path inside the output window. Without events, the path between the window and the ends of the run is unknown.
 fn windowed(path: &Trail, [from, to]: [f64; 2]) -> Trail {
     // The rows are rounded differently from the window.
     let hair = SAME * (to - from);
     path.within([from - hair, to + hair])
 }
 
-/// Periods up to the last one that the points cover completely; `None` without such a period.
+/// Returns the periods up to the last one that the points cover completely; `None` without such a period.
 fn seen(path: &Trail, periods: Periods) -> Option<Periods> {
     let up_to = |count: usize| Periods { count, ..periods };
     (1..=periods.count).rev().map(up_to).find(|periods| covers(path, periods.last()))
 }
 
-/// Whether the points of a path cover a time range.
+/// Returns whether the points of a path cover a time range.
 fn covers(path: &Trail, (from, to): (f64, f64)) -> bool {
     let hair = SAME * (to - from);
     let ends = path.t.first().zip(path.t.last());

@@ -26,7 +26,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Layout, layout_figure(job.title(), &Sketch(&job.scenario.scene).scene()))?)
 }
 
-/// Gravity of a scenario; `None` if 0.
+/// Returns the gravity of a scenario; `None` if 0.
 pub(super) fn gravity(scene: &Scene) -> Option<SceneGravity> {
     let Gravity { acceleration, incline } = scene.gravity;
     (acceleration != 0.0).then_some(SceneGravity { acceleration, incline })
@@ -140,8 +140,8 @@ const STEPS: u32 = 24;
 /// Minimum and maximum radius in the search for the end of a profile, m.
 const RADII: (f64, f64) = (1e-9, 10.0);
 
-/// Points of a profile up to the radius r at which its height is r/2; for a paraboloid this is its radius of curvature. A flat punch ends
-/// with a vertical wall. Cones and lists of springs have no such radius and return no points.
+/// Returns the points of a profile up to the radius r at which its height is r/2; for a paraboloid this is its radius of curvature. A flat
+/// punch ends with a vertical wall. Cones and lists of springs have no such radius and return no points.
 fn shape(profile: &Profile) -> Vec<(f64, f64)> {
     let is_low = |r: f64| profile.gap(r).is_some_and(|gap| gap < r / 2.0);
     let (mut low, mut high) = RADII;

@@ -28,13 +28,13 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pictures)
 }
 
-/// Columns that the plots require.
+/// Returns the columns that the plots require.
 fn needs(job: &Job) -> Vec<String> {
     let of = |plot: &OwnPlot| [std::slice::from_ref(&plot.x), &plot.y[..]].concat();
     job.scenario.own_plots.iter().flat_map(of).collect()
 }
 
-/// Figure with one panel per unit, in the order of the channels.
+/// Returns the figure with one panel per unit, in the order of the channels.
 fn figure<'a>(job: &Job, plot: &'a OwnPlot, series: &'a Series) -> Figure<'a> {
     let mut units: Vec<&str> = Vec::new();
     for name in &plot.y {
@@ -79,13 +79,13 @@ fn axis(channel: &str) -> Axis {
     Axis::new(Label::plain(&spoken(channel)), unit(channel))
 }
 
-/// Name of a channel without its unit, which the axis shows with a prefix.
+/// Returns the name of a channel without its unit, which the axis shows with a prefix.
 fn spoken(channel: &str) -> String {
     let end = format!("_{}", unit(channel).replace(['/', ' '], "_"));
     channel.strip_suffix(&end).unwrap_or(channel).replacen('.', " ", 1)
 }
 
-/// Common quantity of channels with one unit; empty if they differ.
+/// Returns the common quantity of channels with one unit; empty if they differ.
 fn common(channels: &[&String]) -> &'static str {
     let quantity = |channel: &String| channel.rsplit('.').next().unwrap_or_default().to_owned();
     let first = channels.first().map(|channel| quantity(channel)).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Last period of a long run, which is enlarged next to or below the whole.
+//! Last period of a long run, which is enlarged next to or below the plot of the whole run.
 
 use stickslip_run::{Job, Kept, Periods, Series};
 
@@ -53,7 +53,7 @@ impl LastPeriod {
     }
 }
 
-/// Whether a displacement oscillates too fast to be resolved in the plot.
+/// Returns whether a displacement oscillates too fast to be resolved in the plot.
 fn rings(job: &Job, series: &Series) -> bool {
     let bodies = job.scenario.scene.bodies.iter().map(|body| body.name.as_str());
     let parts = bodies.chain(job.model.contacts().map(|(name, _)| name));
@@ -62,7 +62,7 @@ fn rings(job: &Job, series: &Series) -> bool {
     columns.any(|column| turns(column) > MOST_TURNS)
 }
 
-/// Number of turning points of a curve, with a hysteresis relative to its range.
+/// Returns the number of turning points of a curve, with a hysteresis relative to its range.
 fn turns(values: &[f64]) -> usize {
     let extent = values.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
     let swing = SWING * (extent.1 - extent.0);

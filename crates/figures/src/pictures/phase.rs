@@ -16,7 +16,7 @@ pub(super) const KIND: Kind = Kind {
     draw,
 };
 
-/// Minimum stroke of a body relative to the largest in a coordinate; smaller ones are rounding errors.
+/// Minimum stroke of a body relative to the largest in a coordinate; smaller strokes are rounding errors.
 const REST: f64 = 1e-9;
 
 /// Coordinate of a body.
@@ -26,8 +26,8 @@ struct Mover<'a> {
     is_free: bool,
 }
 
-/// Draws the free coordinates, or without any all coordinates that move. For a travelling body only the last period
-/// is shown in all its coordinates, with x counted from its start. Other bodies show the whole run.
+/// Draws all free coordinates; if there are none, all coordinates that move. For a travelling body only the last period is shown in all its
+/// coordinates, with x counted from its start. Other bodies show the whole run.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let trails: Vec<(Mover<'_>, Trail)> = movers(job)
@@ -76,14 +76,14 @@ fn trail(mover: &Mover<'_>, kept: &Kept) -> Trail {
     Trail { t: kept.series.time().to_vec(), x, y: v }
 }
 
-/// Columns that the plot requires.
+/// Returns the columns that the plot requires.
 fn needs(job: &Job) -> Vec<String> {
     let columns =
         |mover: Mover<'_>| quantities(mover.axis).map(|quantity| format!("{}.{quantity}", mover.body));
     movers(job).into_iter().flat_map(columns).collect()
 }
 
-/// Columns of a coordinate and its rate.
+/// Returns the columns of a coordinate and its rate.
 fn quantities(axis: Axis) -> [&'static str; 2] {
     match axis {
         Axis::X => ["x_m", "vx_m_s"],
@@ -92,7 +92,7 @@ fn quantities(axis: Axis) -> [&'static str; 2] {
     }
 }
 
-/// Coordinate of the plot; `None` along the slide.
+/// Returns the coordinate of the plot; `None` for the position along the slide.
 fn beside(axis: Axis) -> Option<Coordinate> {
     match axis {
         Axis::X => None,
@@ -108,7 +108,7 @@ const CLOSE: f64 = 0.05;
 /// Number of samples above which nothing is interpolated.
 const MANY: usize = 100_000;
 
-/// Last period. x counts from its start if the body does not return there.
+/// Returns the last period of a path. If the body does not return to its start, x counts from the start of the period.
 fn last(axis: Axis, whole: &Trail, periods: Periods) -> Trail {
     let last = whole.part(periods.last());
     smooth(&if axis == Axis::X && !last.is_closed() { last.counted_from_start() } else { last })
@@ -141,7 +141,7 @@ fn smooth(trail: &Trail) -> Trail {
     fine
 }
 
-/// Free coordinates of all bodies; without any, those that are not fixed.
+/// Returns the free coordinates of all bodies; if there are none, all coordinates that are not fixed.
 fn movers(job: &Job) -> Vec<Mover<'_>> {
     let of = |wanted: fn(&Freedom) -> bool| -> Vec<Mover<'_>> {
         let bodies = job.scenario.scene.bodies.iter();

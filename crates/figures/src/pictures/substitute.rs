@@ -73,7 +73,7 @@ impl<'a> Row<'a> {
         Some(row)
     }
 
-    /// Stretch in m and state of a spring of this height.
+    /// Returns the stretch in m and state of a spring of this height.
     fn spring(&self, height: f64) -> (f64, SpringCondition) {
         let MemoryCurve { apex: (d, u), h, p, .. } = &self.curve;
         if height >= *d || h.len() < 2 {
@@ -129,7 +129,7 @@ impl<'a> Row<'a> {
         }
     }
 
-    /// Tangential force F_x in N: G\* Σ slope ΔM over the pieces of the memory curve.
+    /// Returns the tangential force F_x in N: G\* Σ slope ΔM over the pieces of the memory curve.
     fn force(&self) -> f64 {
         let (profile, MemoryCurve { h, p, .. }) = (self.law.profile(), &self.curve);
         let piece = |k: usize| {

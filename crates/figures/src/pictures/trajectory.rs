@@ -17,8 +17,8 @@ pub(super) const KIND: Kind = Kind {
     draw,
 };
 
-/// Draws positions over time, heights and angles if there are any, and contact displacements. For a long run the last
-/// period is enlarged next to it.
+/// Draws positions over time, heights and angles if there are any, and contact displacements. For a long run the last period is enlarged
+/// next to the plot of the whole run.
 fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     let (job, kept) = (sources.job, sources.kept);
     let series = &kept.series;
@@ -44,7 +44,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Trajectory, enlarged_beside(figure, part, period.span, &words))?)
 }
 
-/// Motion in a series. Each contact has the name of its curve.
+/// Returns the motion in a series. Each contact has the name of its curve.
 fn motion<'a>(job: &'a Job, series: &'a Series, contacts: &[(&'a str, &'a str)]) -> Trajectory<'a> {
     let (feet, sliders) = tracks(job, series, Axis::X);
     let beside =
@@ -65,7 +65,7 @@ fn motion<'a>(job: &'a Job, series: &'a Series, contacts: &[(&'a str, &'a str)])
     }
 }
 
-/// Columns that the plot requires.
+/// Returns the columns that the plot requires.
 pub(super) fn needs(job: &Job) -> Vec<String> {
     let bodies = job.scenario.scene.bodies.iter();
     let of = |body: &Named<Body>| {
@@ -75,12 +75,12 @@ pub(super) fn needs(job: &Job) -> Vec<String> {
     bodies.flat_map(of).collect()
 }
 
-/// Positions along an axis: of feet and of sliders.
+/// Returns the positions along an axis: of feet and of sliders.
 pub(super) fn tracks<'a>(job: &'a Job, series: &'a Series, axis: Axis) -> (Vec<Track<'a>>, Vec<Track<'a>>) {
     tracks_of(job, series, (axis, quantity(axis)))
 }
 
-/// Values of a quantity of an axis, such as the velocity: of feet and of sliders.
+/// Returns the values of a quantity of an axis, such as the velocity: of feet and of sliders.
 pub(crate) fn tracks_of<'a>(
     job: &'a Job,
     series: &'a Series,
@@ -103,7 +103,7 @@ pub(crate) fn tracks_of<'a>(
     (feet, sliders)
 }
 
-/// Column of a coordinate.
+/// Returns the column of a coordinate.
 fn quantity(axis: Axis) -> &'static str {
     match axis {
         Axis::X => "x_m",
@@ -112,7 +112,7 @@ fn quantity(axis: Axis) -> &'static str {
     }
 }
 
-/// Whether an actuator is attached to a body.
+/// Returns whether an actuator is attached to a body.
 fn has_actuator(job: &Job, place: usize) -> bool {
     job.scenario.scene.actuators.iter().any(|actuator| actuator.part.between.contains(&Side::Body(place)))
 }
@@ -121,7 +121,7 @@ fn track<'a>(series: &'a Series, name: &'a str, quantity: &str) -> Track<'a> {
     Track { name, values: series.column(name, quantity) }
 }
 
-/// u_c of the only contact if it oscillates about its start; `None` otherwise.
+/// Returns u_c of the only contact if this contact oscillates about its start; `None` otherwise.
 fn gross_slip(job: &Job, kept: &Kept) -> Option<f64> {
     let (name, _) = job.model.contacts().next().filter(|_| job.model.contacts().count() == 1)?;
     let (u_c, _) = job.model.contact_scale(0).filter(|_| job.has_constant_load(0))?;

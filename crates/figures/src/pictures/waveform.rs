@@ -20,7 +20,7 @@ const POINTS: f64 = 60.0;
 /// Maximum number of points per piece, and maximum number of pieces.
 const MOST_POINTS: f64 = 20_000.0;
 const MOST_PIECES: usize = 20_000;
-/// Number of corners above which they are not marked.
+/// Number of corners above which corners are not marked.
 const MANY_CORNERS: usize = 100;
 /// Margin before and after a non-periodic waveform, as a fraction of its duration.
 const MARGIN: f64 = 0.1;
@@ -60,7 +60,7 @@ fn draw(sources: &Sources<'_>, pen: &Pen<'_>) -> Result<Vec<Picture>, Undrawn> {
     Ok(pen.draw(PlotName::Waveform, waveform_figure(job.title(), &courses))?)
 }
 
-/// Time range in s: two periods, or from start to end with a margin, or the whole run.
+/// Returns the time range in s: two periods, or from start to end with a margin, or the whole run.
 fn span(waveform: &Waveform, duration: f64) -> (f64, f64) {
     let (start, end) = waveform.window();
     match waveform.period() {
@@ -72,7 +72,7 @@ fn span(waveform: &Waveform, duration: f64) -> (f64, f64) {
     }
 }
 
-/// Free stroke per volt, m, if stacks follow the waveform as their voltage; `None` otherwise.
+/// Returns the free stroke per volt, m, if stacks follow the waveform as their voltage; `None` otherwise.
 fn volt(stacks: &[Piezo], place: usize) -> Option<f64> {
     let followed = |piezo: &&Piezo| piezo.by_voltage && piezo.command == Varying::Follows(place);
     stacks.iter().find(followed)?.stack.stroke_per_volt

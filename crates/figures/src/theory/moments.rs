@@ -112,7 +112,7 @@ pub(super) fn frames(law: &Interface, walk: &Walk, mut drawn: impl FnMut(&Substi
     }
 }
 
-/// Common scales of the plots: largest radius, indentation and stretch, m.
+/// Returns the common scales of the plots: largest radius, indentation and stretch, m.
 fn scale(law: &Interface, walk: &Walk) -> (f64, f64, f64) {
     let springs = walk.moments.iter().flat_map(|moment| &moment.springs);
     let largest = springs.fold(0.0_f64, |most, spring| most.max(spring.spring.stretch.abs()));
@@ -147,7 +147,7 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// Heading of a corner: its number and displacement.
+/// Returns the heading of a corner: its number and displacement.
 fn heading(moment: &Moment) -> String {
     let stop = &moment.stop;
     let words = format!("{}: u = {}", stop.corner, quantity(Real(stop.apex.u), "m"));
@@ -155,7 +155,7 @@ fn heading(moment: &Moment) -> String {
     words.replace('-', "−")
 }
 
-/// Converts a ring to that of the plot.
+/// Converts a ring of the contact to a ring of the plot.
 fn ring(zone: &Zone) -> FieldsZone {
     let slips = |sense: i8| {
         if sense < 0 { SpringCondition::SlipBackward } else { SpringCondition::SlipForward }

@@ -2,7 +2,7 @@
 
 use stickslip_drive::{Piece, Waveform};
 
-/// Number of parts of a smooth piece that are searched for turning points.
+/// Number of parts into which a smooth piece of a waveform is divided in the search for turning points.
 const PARTS: usize = 64;
 /// Number of parts for a piece that covers more than half of the period.
 const PARTS_OF_ALL: usize = 2048;
@@ -11,7 +11,7 @@ const MOST_PIECES: usize = 4096;
 const MOST_TURNS: usize = 16;
 /// Time difference below which two times are equal, in periods.
 const SAME: f64 = 1e-9;
-/// Number of bisections of an interval with a sign change of the rate. It suffices for full precision.
+/// Number of bisections that locate a sign change of the rate of the waveform to full precision.
 const HALVINGS: u32 = 64;
 
 /// Direction of a waveform.
@@ -31,7 +31,7 @@ pub struct Phases {
     /// Start of the analysed period and length of the period, s.
     start: f64,
     length: f64,
-    /// Start of each interval after the start of the period, s, in ascending order from 0, and the direction of the waveform in it.
+    /// Intervals of constant direction, in order: start, s after the start of the period, and direction of the waveform.
     stretches: Vec<(f64, Sense)>,
     /// Total rise and total fall of the waveform in a period, in its unit.
     ways: [f64; 2],
@@ -50,10 +50,10 @@ impl Sense {
 }
 
 impl Phases {
-    /// Returns the directions of a waveform in its second period, or in its first one if it stops earlier.
+    /// Returns the directions of a waveform in its second period, or in its first period if the waveform stops earlier.
     ///
-    /// The second period is used because a delayed flyback may be missing in the first one. Returns `None` if the waveform is not periodic
-    /// or has more than 16 turning points per period.
+    /// The second period is used because a delayed flyback may be missing in the first period. Returns `None` if the waveform is not
+    /// periodic or has more than 16 turning points per period.
     pub fn of(waveform: &Waveform) -> Option<Self> {
         let (length, delay) = (waveform.period()?, waveform.timing().delay);
         let is_repeated = waveform.window().1 >= delay + 2.0 * length;
@@ -64,12 +64,12 @@ impl Phases {
         for _ in 0..MOST_PIECES {
             let until = piece.end.min(end);
             let from = piece.start.max(start);
-            // A piece that contains many waves has more turning points than allowed.
+            // A piece with more waves than this has more turning points than allowed.
             if (until - from) > MOST_TURNS as f64 * 4.0 * waveform.resolution() {
                 return None;
             }
             phases.take(waveform, &piece, [from, until]);
-            // Times of piece ends are rounded.
+            // The end times of pieces have rounding errors.
             if until >= end - SAME * length {
                 let enough = phases.stretches.len() <= MOST_TURNS;
                 return enough.then_some(phases);
@@ -80,7 +80,7 @@ impl Phases {
         None
     }
 
-    /// Adds the part of a piece between two times, s.
+    /// Adds the directions and changes of a piece of the waveform between two times, s.
     fn take(&mut self, waveform: &Waveform, piece: &Piece, [from, to]: [f64; 2]) {
         let is_all = to - from > 0.5 * self.length;
         let parts = if is_all { PARTS_OF_ALL } else { PARTS };
@@ -124,10 +124,10 @@ impl Phases {
         if way > 0.0 { *rise += way } else { *fall -= way }
     }
 
-    /// Returns the direction just after time t, s, and the time until which it is valid, s. That time is slightly before the next turn.
+    /// Returns the direction just after time t, s, and the time until which it is valid, s, slightly before the next turning point.
     pub fn sense_after(&self, t: f64) -> (Sense, f64) {
         let (within, same) = ((t - self.start).rem_euclid(self.length), SAME * self.length);
-        // Times close to the end of the period belong to the next one.
+        // Times close to the end of a period belong to the next period.
         let within = if self.length - within <= same { 0.0 } else { within };
         let after = self.stretches.partition_point(|(begin, _)| *begin <= within + same);
         let sense = after.checked_sub(1).and_then(|k| self.stretches.get(k));
@@ -135,7 +135,7 @@ impl Phases {
         (sense.map_or(Sense::Resting, |(_, sense)| *sense), t + (turn - within) - 2.0 * same)
     }
 
-    /// Iterates over the turning points of a period, s after its start. The start itself is excluded.
+    /// Iterates over the turning points of a period, s after its start, without the start itself.
     pub fn turns(&self) -> impl Iterator<Item = f64> {
         self.stretches.iter().skip(1).map(|(begin, _)| *begin)
     }

@@ -5,13 +5,13 @@ use crate::Setting;
 use crate::Thresholds;
 use stickslip_contact::{Interface, Profile};
 
-/// Threshold values below this one are 0, as for a flat punch.
+/// Thresholds below this value are set to 0, as for a flat punch.
 const ROUNDING: f64 = 1e-12;
-/// Relative distance from the friction limit within which a force has reached it.
-// In partial slip of a sphere, 1 - 1e-6 of u_c gives a force this close to the limit.
+/// Relative distance of a force from the friction limit below which the force counts as equal to the limit.
+// In partial slip of a sphere, the displacement (1 - 1e-6) u_c gives a force at this distance from the limit.
 const AT_LIMIT: f64 = 1e-9;
 
-/// A cycle with its slip regime. Only a closed loop under constant load has a regime other than "still".
+/// Results and slip regime of a cycle. An open loop or a varying load has no regime except "still".
 #[derive(Debug, Clone, Copy)]
 pub struct JudgedCycle {
     /// Results of the cycle.
@@ -74,8 +74,8 @@ fn thresholds(profile: &Profile, d: f64) -> Option<Thresholds> {
 
 /// Returns the slip regime of a loop. Gross slip means that the force amplitude reaches the friction limit `limit`, N.
 ///
-/// This criterion holds for any profile and for a row of few springs. The ratios A, B and D are for loops with an unknown friction limit. B
-/// of a small loop is near 2/3 for any profile and would exceed the threshold of a worn profile.
+/// This criterion holds for any profile and for a row of few springs. The ratios A, B and D serve for loops with an unknown friction limit.
+/// For small loops, B is near 2/3 for any profile and would exceed the threshold of a worn (flat) profile.
 fn regime(figures: &CycleFigures, limit: f64) -> &'static str {
     let cycle = &figures.cycle;
     if cycle.force_amplitude >= (1.0 - AT_LIMIT) * limit {

@@ -5,11 +5,11 @@ use stickslip_contact::Interface;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Normal, Varying};
 
-/// Tolerance of the mean force, relative to the largest force.
+/// Tolerance of the mean normal force, relative to its maximum.
 const WANTED: f64 = 1e-11;
-/// Number of initial integration intervals per shortest wave or piece.
+/// Number of initial integration intervals per shortest wave or piece of the waveform.
 const PARTS: f64 = 4.0;
-/// Maximum number of bisections of an interval. They are needed where the force reaches 0, because it has a kink there.
+/// Maximum number of bisections of an integration interval. Many are needed where the contact opens, because the force has a kink there.
 const HALVINGS: u32 = 40;
 
 /// A waveform that prescribes the normal force, the indentation or the contact radius of a contact.
@@ -29,9 +29,9 @@ enum Quantity {
 }
 
 impl Load {
-    /// Returns the load of contact `c`.
+    /// Returns the waveform of the normal load of contact `c`.
     ///
-    /// Returns `None` for constant loads, loads by bodies, and loads that are computed or set during the run.
+    /// Returns `None` if the load is constant, depends on the motion of bodies, or is computed or set during the run.
     pub(super) fn of(setting: &Setting, c: usize) -> Option<Self> {
         let (varying, quantity) = match setting.scenario.scene.contacts.get(c)?.part.normal {
             Normal::Force(load) => (load, Quantity::Force),
@@ -45,10 +45,10 @@ impl Load {
         is_known.then(|| Self { waveform: waveform.clone(), quantity, count: f64::from(setting.count(c)) })
     }
 
-    /// Returns the mean normal force of all identical contacts between two times, s, in N. It uses adaptive Simpson integration.
+    /// Returns the mean normal force of all identical contacts between two times, s, in N, by adaptive Simpson integration.
     pub(super) fn mean(&self, law: &Interface, [from, to]: [f64; 2]) -> f64 {
         let longest = self.waveform.quickest() / PARTS;
-        // The tolerance is relative to the largest force, because where the load is near 0 everything is rounding.
+        // The tolerance is relative to the largest force, because small forces are dominated by rounding errors.
         let wanted = WANTED * self.force(law, self.waveform.range().1);
         let (mut sum, mut piece) = (0.0, self.waveform.piece_at(from));
         loop {
@@ -93,7 +93,7 @@ impl Part {
         (end - start) * (a + 4.0 * b + c) / 6.0
     }
 
-    /// Returns ∫ F dt, N s, by recursive bisection. The error is below `wanted` (N) times the length, unless `halvings` is exhausted.
+    /// Returns ∫ F dt, N s, by recursive bisection. With enough `halvings`, the error is below `wanted` (N) times the length.
     fn integral(&self, (wanted, halvings): (f64, u32), force: &impl Fn(f64) -> f64) -> f64 {
         let ([start, end], [a, b, c]) = (self.ends, self.forces);
         let middle = 0.5 * (start + end);
@@ -104,7 +104,7 @@ impl Part {
         let halves = [half([start, middle], [a, b]), half([middle, end], [b, c])];
         let fine: f64 = halves.iter().map(Self::simpson).sum();
         let change = fine - self.simpson();
-        // Richardson extrapolation: the error of the halves is 1/15 of the change.
+        // Richardson extrapolation: the error after the bisection is 1/15 of the change.
         if halvings == 0 || change.abs() <= wanted * (end - start) {
             return fine + change / 15.0;
         }

@@ -12,11 +12,11 @@ use crate::returning_cycles;
 use std::collections::HashMap;
 use stickslip_contact::Interface;
 
-/// Maximum numbers of stored samples: per cycle, and per run if cycles are evaluated at its end.
+/// Maximum numbers of stored samples: per cycle, and per run if cycles are evaluated at the end of the run.
 const MOST: [usize; 2] = [1 << 18, 1 << 21];
-/// Maximum number of samples by which the replayed contact may lag behind. Contacts without cycles never need the replay.
+/// Number of pending samples at which the contact is replayed along them. A later replay saves time if no cycle needs it.
 const PENDING: usize = 1 << 14;
-/// Channels of a contact, in the order of its samples.
+/// Channels of a contact that are sampled, in the order of the sampled values.
 const QUANTITIES: [&str; 5] = ["u_m", "d_m", "fx_N", "fn_N", "friction_J"];
 
 /// Detects and evaluates the cycles of one contact.
@@ -38,9 +38,9 @@ pub struct Loops {
     count: f64,
     /// Range of u below which the contact is at rest, m.
     still: f64,
-    /// Maximum number of samples.
+    /// Maximum number of stored samples.
     most: usize,
-    /// Number of samples that were dropped.
+    /// Number of samples that were dropped because of this limit.
     pub left_out: u64,
     /// Whether samples of the current cycle were dropped.
     is_torn: bool,
@@ -59,7 +59,7 @@ enum Cutting {
 impl Loops {
     /// Creates the detection for contact `c`. `places` are the channel indices by name.
     ///
-    /// Returns `None` if the contact is driven neither periodically nor by a table.
+    /// Returns `None` if neither a periodic waveform nor a table drives the contact.
     pub fn of(setting: &Setting, c: usize, places: &HashMap<&str, usize>) -> Option<Self> {
         let cut = match (Periods::of_contact(setting, c, f64::INFINITY), table_of(setting, c)) {
             (Some(periods), _) => Cutting::Periods(Tracker::new(periods)),
@@ -94,9 +94,9 @@ impl Loops {
         })
     }
 
-    /// Adds a sample, a row of all channels. `bends` is true at an event.
+    /// Adds a sample: the row `values` of all channels. `bends` is true at an event, where the time history may have a kink.
     ///
-    /// Returns the evaluated cycle if the sample ends one and u returns.
+    /// Returns the evaluated cycle if a cycle ends at this sample and u has returned to its initial value.
     pub fn take(&mut self, law: &Interface, values: &[f64], bends: bool) -> Option<CycleFigures> {
         if matches!(self.cut, Cutting::Over) {
             return None;
@@ -154,7 +154,7 @@ impl Loops {
             return;
         }
         if is_full {
-            // A cycle with dropped samples is not evaluated. Later cycles are.
+            // A cycle with dropped samples is not evaluated, but later cycles are evaluated.
             self.is_torn = true;
             self.left_out += self.track.t.len() as u64 - 1;
             self.forget(law);
@@ -165,7 +165,7 @@ impl Loops {
         self.track.push(t, moment);
     }
 
-    /// Adds a sample before the first cycle.
+    /// Adds a sample before the first cycle: only the replay of the contact needs it.
     fn wait(&mut self, law: &Interface, moment: Moment) {
         let Some(walk) = &mut self.walk else { return };
         walk.begin(moment.d);
@@ -175,7 +175,7 @@ impl Loops {
         }
     }
 
-    /// Evaluates the cycle that ends with the last sample. Returns `None` if u does not return.
+    /// Evaluates the cycle that ends with the last sample. Returns `None` if u does not return to its initial value.
     fn end_cycle(&mut self, law: &Interface) -> Option<CycleFigures> {
         let span = 0..self.track.t.len().checked_sub(1)?;
         let is_whole = !self.is_torn;
@@ -184,7 +184,7 @@ impl Loops {
         comes_back.then(|| track.figures(&span, &setup, walk.as_mut()))
     }
 
-    /// Returns the samples, the data for the evaluation and the replayed contact.
+    /// Returns the samples, the other data for the evaluation of a cycle, and the replayed contact.
     fn parts<'a>(&'a mut self, law: &'a Interface) -> (&'a Track, Setup<'a>, &'a mut Option<Walk>) {
         let Self { track, walk, load, count, still, .. } = self;
         let (is_dense, is_continuous) = (self.is_dense, self.is_continuous);
@@ -193,16 +193,16 @@ impl Loops {
         (track, setup, walk)
     }
 
-    /// Starts a new cycle with the last sample of the previous one.
+    /// Starts a new cycle with the last sample of the previous cycle.
     fn begin_cycle(&mut self, law: &Interface) {
         self.is_torn = false;
         self.forget(law);
     }
 
-    /// Removes all samples except the last one. The replayed contact still has to follow them.
+    /// Removes all samples except the last and adds their displacements to the pending path of the replayed contact.
     fn forget(&mut self, law: &Interface) {
         if let Some(walk) = &mut self.walk {
-            // If a cycle was not evaluated, the replayed contact is behind. It is never inside a cycle.
+            // If a cycle was not evaluated, the replayed contact is at an earlier sample, always at the start of a cycle.
             let behind = walk.at.map_or(0, |at| at + 1);
             walk.pending.extend(self.track.u.iter().skip(behind));
             walk.at = Some(0);

@@ -1,33 +1,33 @@
 //! Extremes of quantities between the samples of a contact.
 //!
-//! Between two events the quantities are smooth, and a polynomial through a few samples gives their extreme. Near an event they are not: as
-//! gross slip approaches, the edge of the stick area moves linearly to the centre. For a paraboloid, the force differs from its limit by
-//! the power 3/2 of the remaining time. Therefore the polynomials there are in the square root of this time, without a linear term.
+//! Between two events the quantities are smooth, and a polynomial through a few samples gives their extreme. Near an event they are not
+//! smooth: as gross slip approaches, the edge of the stick area moves linearly to the centre. For a paraboloid, the force differs from its
+//! limit by the power 3/2 of the remaining time. Therefore these polynomials are in the square root of this time, without a linear term.
 
 use super::{ROUNDING, Track};
 use crate::series::extent;
 use std::ops::Range;
 
-/// Samples closer than this fraction of their mean distance count as one.
+/// Samples whose distance in time is below this fraction of the mean distance count as one sample.
 const NEAR: f64 = 0.01;
 /// Maximum distance of the nearest sample from an event for an extrapolation to the event, in mean distances.
 const FAR: f64 = 1.5;
 /// Maximum influence of the last sample on the extrapolated value, relative to the range of values.
 ///
-/// It is larger if a fast transient follows the event, such as the decay of damping forces at the onset of slip. Then the extrapolation is
-/// rejected.
+/// A fast transient after the event, such as the decay of damping forces at the onset of slip, has a larger influence. The extrapolation is
+/// then rejected.
 const CREDIBLE: f64 = 1e-3;
-/// Number of neighbouring samples on either side.
+/// Number of neighbouring samples on each side of a polynomial.
 const SIDE: usize = 2;
-/// Number of bisections. The error of the extreme is quadratic in the remaining interval.
+/// Number of bisections that locate an extreme. The error of its value is quadratic in the remaining interval.
 const HALVINGS: u32 = 32;
 
 impl Track {
     /// Returns the minimum and maximum of `values` over a cycle.
     ///
-    /// An extreme that is no event is the extreme of the polynomial through the sample and up to four neighbours. No neighbour is beyond an
-    /// event. The error is of sixth order in the sampling interval. A closed cycle is continued periodically. If the values may jump at
-    /// events, an extreme next to an event is taken as sampled. The limits on both sides of events are then included.
+    /// Unless the extreme is an event, it is that of a polynomial through the sample and up to four neighbours, none of them beyond an
+    /// event. The error is of sixth order in the sampling interval. A closed cycle is continued periodically. If values may jump at events,
+    /// polynomials exclude samples at events, and the limits on both sides of events are included.
     pub(super) fn peaks(&self, span: &Range<usize>, values: &[f64], is_continuous: bool) -> (f64, f64) {
         let (low, high) = extent(&values[span.start..=span.end]);
         let of = (values, high - low, is_continuous);
@@ -64,7 +64,7 @@ impl Track {
         })
     }
 
-    /// Returns the extreme of the polynomial near the sample with the value `extreme`, or `extreme` itself if there is none.
+    /// Returns the extreme of a polynomial near the sample with the value `extreme`, or `extreme` itself if there is no such polynomial.
     fn vertex(
         &self,
         (first, last): (usize, usize),
@@ -76,7 +76,7 @@ impl Track {
         if self.bends[i] {
             return extreme;
         }
-        // A closed cycle continues at its start; an open one ends here.
+        // After its end, a closed cycle continues at its start. An open cycle has no neighbours there.
         let apart = (values[last] - values[first]).abs();
         if (i == first || i == last) && apart > ROUNDING * range {
             return extreme;
@@ -104,9 +104,9 @@ impl Track {
         extreme + rise.unwrap_or(0.0)
     }
 
-    /// Returns the neighbours of sample `i` on one side, with their distances, s.
+    /// Returns the indices of the neighbours of sample `i` on one side, with their distances in time, s.
     ///
-    /// Neighbours that are very close to each other are skipped. No neighbour is beyond an event.
+    /// Of neighbours that are very close to each other, only one is used. The search ends at an event.
     fn side(
         &self,
         (first, last): (usize, usize),
@@ -137,8 +137,8 @@ impl Track {
 
 /// Returns the extreme of a polynomial in the square root of the time to an event, relative to the value at the sample.
 ///
-/// `away` are the samples on the side away from the event, `towards` those on its side; the last of these is the event. Each sample is
-/// given by its distance, s, and its value relative to that of the central sample.
+/// `away` contains the samples on the side without the event, `towards` the samples up to the event. Each sample is given by its distance,
+/// s, and its value relative to that of the central sample.
 fn by_roots(
     away: impl Iterator<Item = (f64, f64)> + Clone,
     towards: impl DoubleEndedIterator<Item = (f64, f64)> + Clone,
@@ -148,20 +148,20 @@ fn by_roots(
     let towards = towards.rev().skip(1).map(|(way, value)| (event - way, value));
     let away = away.map(|(way, value)| (event + way, value));
     let moments = towards.chain([(event, 0.0)]).chain(away).take(2 * SIDE);
-    // The event is a double point, so that the polynomial has slope 0 there.
+    // The event is used as two equal points, so that the polynomial has slope 0 there.
     let points = [(0.0, there); 2].into_iter().chain(moments.map(|(way, value)| (way.sqrt(), value)));
     let nearest = (event - after).max(NEAR * NEAR * event);
     Polynomial::through(points).extreme([nearest.sqrt(), (event + before).sqrt()])
 }
 
-/// A polynomial in Newton's form.
+/// Interpolating polynomial in Newton's form.
 struct Polynomial {
     places: Vec<f64>,
     differences: Vec<f64>,
 }
 
 impl Polynomial {
-    /// Interpolates points. Two equal points in a row give slope 0 there.
+    /// Returns the polynomial through the points. Two equal consecutive points give slope 0 there.
     fn through(points: impl Iterator<Item = (f64, f64)>) -> Self {
         let (places, mut differences): (Vec<f64>, Vec<f64>) = points.unzip();
         for order in 1..places.len() {
@@ -182,7 +182,7 @@ impl Polynomial {
         })
     }
 
-    /// Returns the value at which the slope changes sign within an interval. Returns `None` if it has equal signs at both ends.
+    /// Returns the value where the slope changes sign within an interval. Returns `None` if the slopes at both ends have equal signs.
     fn extreme(&self, [mut low, mut high]: [f64; 2]) -> Option<f64> {
         let slope = |x: f64| self.at(x)[1];
         let rises = slope(low) > 0.0;

@@ -4,12 +4,12 @@ use super::Track;
 use std::ops::Range;
 use stickslip_contact::{Apex, Interface, Memory, Segment};
 
-/// Number of bisections of an interval with a sign change of the force. It suffices for full precision.
+/// Number of bisections that locate a sign change of the force to full precision.
 const HALVINGS: u32 = 64;
 
 /// A point of a cycle at which the contact law is evaluated, between the samples `after` and `after + 1`.
 ///
-/// Without `u`, it is the point where F_x crosses the middle of its range.
+/// If `u` is `None`, the point is where F_x crosses the middle of its range.
 pub(super) struct Question {
     pub(super) after: usize,
     pub(super) u: Option<f64>,
@@ -19,14 +19,14 @@ pub(super) struct Question {
     pub(super) answer: f64,
 }
 
-/// A contact that is moved a second time along the samples of a run.
+/// Replay of a contact: its slip memory is moved a second time along the sampled displacements of a run.
 pub(super) struct Walk {
     memory: Memory,
     /// Indentation, m.
     d: f64,
-    /// Displacements of earlier samples along which the contact has not been moved yet, m.
+    /// Displacements of earlier samples along which the replayed contact has not been moved yet, m.
     pub(super) pending: Vec<f64>,
-    /// Index of the sample that the contact has reached.
+    /// Index of the sample that the replayed contact has reached.
     pub(super) at: Option<usize>,
 }
 
@@ -36,7 +36,7 @@ impl Walk {
         Self { memory, d: f64::NAN, pending: Vec::new(), at: None }
     }
 
-    /// Sets the indentation, which is constant, at the first sample.
+    /// Sets the constant indentation d, m, at the first sample.
     pub(super) fn begin(&mut self, d: f64) {
         if self.d.is_nan() {
             self.d = d;
@@ -52,7 +52,7 @@ impl Walk {
         }
     }
 
-    /// Evaluates the points of a cycle. Cycles must be in order of time.
+    /// Evaluates the contact law at the given points of a cycle. Cycles must be passed in order of time.
     pub(super) fn answer(
         &mut self,
         (track, law): (&Track, &Interface),
@@ -62,7 +62,7 @@ impl Walk {
     ) {
         self.catch_up(law);
         let d = self.d;
-        // The questions are in order of time.
+        // The points are in order of time.
         let mut next = 0;
         for i in self.at.map_or(0, |at| at + 1)..=span.end {
             if i > span.start {
@@ -82,7 +82,7 @@ impl Walk {
     }
 }
 
-/// Returns the zero of a force that changes its sign once, by bisection.
+/// Returns the displacement at which a force changes its sign, by bisection.
 fn zero(force: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
     let falls = force(to) < 0.0;
     for _ in 0..HALVINGS {

@@ -15,7 +15,7 @@ pub(super) struct Motion<'a> {
     law: &'a Interface,
     waveforms: Vec<&'a Waveform>,
     along: Vec<Part<'a>>,
-    /// Motion across the contact plane. Empty if the bodies do not press the contact.
+    /// Velocities normal to the contact plane. Empty if the indentation does not depend on the motion of the bodies.
     across: Vec<Part<'a>>,
 }
 
@@ -28,7 +28,7 @@ struct Part<'a> {
 /// Velocity of a coordinate.
 #[derive(Clone, Copy)]
 enum Rate<'a> {
-    /// Recorded in every sample.
+    /// Velocity recorded in every sample.
     Recorded(&'a [f64]),
     /// Rate of a waveform, which may jump at piece ends.
     Driven(&'a Waveform),
@@ -51,7 +51,7 @@ struct Cubic {
 /// Time history of the indentation.
 enum Depth<'a> {
     Cubic(Cubic),
-    /// Determined by a waveform that prescribes the normal force or the indentation.
+    /// A waveform prescribes the normal force or the indentation.
     Driven {
         waveform: &'a Waveform,
         piece: Piece,
@@ -69,7 +69,7 @@ enum Kind {
 }
 
 impl<'a> Motion<'a> {
-    /// Creates the motion of contact `c`. Returns `None` if a required velocity was not recorded or a motion is not supported.
+    /// Creates the motion of contact `c`. Returns `None` if a required velocity was not recorded or a type of motion is not supported.
     pub(super) fn new(setting: &'a Setting, c: usize, series: &'a Series) -> Option<Self> {
         let (name, law) = setting.model.contacts().nth(c)?;
         let contact = &setting.scenario.scene.contacts.get(c)?.part;
@@ -100,7 +100,7 @@ impl<'a> Motion<'a> {
         Some(motion)
     }
 
-    /// Returns the motion between samples i-1 and i. Their times must differ.
+    /// Returns the motion between samples i-1 and i. The times of both samples must differ.
     pub(super) fn leg(&self, i: usize) -> Leg<'a> {
         let (start, end) = (self.time[i - 1], self.time[i]);
         let cubic = |values: &[f64], parts: &[Part<'_>]| {
@@ -126,7 +126,7 @@ impl<'a> Motion<'a> {
     }
 }
 
-/// Returns the contribution of a coordinate. The inner `None` means no contribution, the outer one an unknown velocity.
+/// Returns the contribution of a coordinate to the relative velocity: `None` if its velocity is unknown, `Some(None)` if it has none.
 fn part<'a>(
     setting: &'a Setting,
     series: &'a Series,
@@ -158,7 +158,7 @@ fn part<'a>(
 }
 
 impl Rate<'_> {
-    /// Returns the velocity at a sample, as the one-sided limit from between samples i-1 and i.
+    /// Returns the velocity at a sample, as the one-sided limit from the interval between samples i-1 and i.
     fn at(self, sample: usize, (i, time): (usize, &[f64])) -> f64 {
         match self {
             Self::Recorded(rates) => rates[sample],
@@ -171,7 +171,7 @@ impl Rate<'_> {
 }
 
 impl Leg<'_> {
-    /// Returns the indentation and the displacement u at s.
+    /// Returns the indentation d and the displacement u at the relative time s from 0 to 1.
     pub(super) fn at(&self, s: f64) -> Apex {
         Apex { d: self.depth.at(s), u: self.u.at(s) }
     }
@@ -186,7 +186,7 @@ impl Leg<'_> {
             let across = (at.d - straight(start.d, end.d)).abs() / start.d.max(end.d);
             along + if start.d.max(end.d) > 0.0 { across } else { 0.0 }
         };
-        // A cubic with an inflection point may cross the straight line at its middle.
+        // A cubic with an inflection point may cross the straight line at the middle, so three points are compared.
         off(0.25).max(off(0.5)).max(off(0.75))
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use stickslip_contact::Interface;
 use stickslip_scenario::substance;
 
-/// Factor by which a modulus may lie outside the range of its material. It covers porous, rolled and alloyed varieties.
+/// Factor by which a modulus may lie outside of the range of its material, because materials may be porous, rolled or alloyed.
 const APART: f64 = 3.0;
 /// Mean pressure at which a ball begins to yield below its surface, in yield stresses.
 ///
@@ -28,10 +28,10 @@ impl Implausible<'_> {
             if (low / APART..=high * APART).contains(&modulus) {
                 continue;
             }
-            // The strength is unknown as well, whether the name or the number is wrong.
+            // Either the name or the modulus is wrong, so the strength is unknown as well.
             self.misnamed.push(name);
             let path = format!("materials.{name}.youngs_modulus");
-            // A modulus below that of any solid has its own warning.
+            // The scenario has a separate warning about a modulus below that of any solid.
             if setting.scenario.warnings.iter().any(|odd| odd.kind == "modulus" && odd.path == path) {
                 continue;
             }
@@ -86,7 +86,7 @@ impl Implausible<'_> {
     }
 
     fn pressures(&mut self, c: usize, (name, law): (&str, &Interface), d: f64) {
-        // A list of spring heights has no contact area.
+        // A contact that is given by a list of spring heights has no contact area.
         let Some(peak) = law.peak_pressure(d) else { return };
         let mean = law.normal_force(d) / (PI * law.profile().radius(d).powi(2));
         let setting = self.setting;

@@ -6,7 +6,7 @@ use stickslip_drive::{Accuracy, Stepper};
 /// Largest stable time step of the event-driven integrator, in time constants of a driver.
 // The stability limit of DOP853 on the negative real axis is 6.4.
 const STRIDE: f64 = 6.0;
-/// Number of time steps from which a run takes some seconds.
+/// Number of time steps above which a run takes some seconds.
 const MANY: f64 = 1e6;
 
 impl Implausible<'_> {
@@ -43,7 +43,7 @@ impl Implausible<'_> {
                 Accuracy::Frame { length, error } => {
                     duration / length * setting.model.substeps(length, error)
                 }
-                // A fixed time step is given by the user. One that is too long is an error.
+                // A fixed time step is given by the user, and a step that is too long is an error.
                 Accuracy::Step(_) => continue,
             };
             if rate == 0.0 || steps < MANY {

@@ -4,13 +4,13 @@ use super::{Implausible, told};
 use std::f64::consts::TAU;
 use stickslip_drive::scene::{Freedom, Side, Varying};
 
-/// Range of plausible masses, kg: from a grain of dust to the largest mass lifted by hand (ISO 11228-1).
+/// Range of plausible masses, kg: from a grain of dust to the largest mass that may be lifted by hand (ISO 11228-1).
 const MASSES: (f64, f64) = (1e-9, 25.0);
 /// Range of plausible stiffnesses of piezo actuators, N/m: from lever actuators with 0.2 N/µm to thick rings below 10 kN/µm.
 const STIFFNESSES: (f64, f64) = (2e5, 1e10);
 /// Range of plausible capacitances of piezo actuators, F: from chips with some 10 nF to low-voltage stacks with some 100 µF.
 const CAPACITANCES: (f64, f64) = (1e-11, 1e-3);
-/// Quality factor of a mounted piezo stack, for the proposed damping.
+/// Quality factor of a mounted piezo stack, from which the warning computes a proposed damping.
 const QUALITY: f64 = 30.0;
 
 /// Forces on a body along x and their support.
@@ -18,9 +18,9 @@ const QUALITY: f64 = 30.0;
 struct Pull {
     /// Smallest and largest force, N.
     range: (f64, f64),
-    /// Sum of the friction limits μF_N of its contacts, N. `None` without contacts, or if something else holds the body.
+    /// Sum of the friction limits μF_N of the contacts of the body, N. `None` without contacts, or if other parts hold the body.
     holds: Option<f64>,
-    /// Whether the body is massless, so that its forces must balance.
+    /// Whether the body is massless, so that the forces on it must be in equilibrium.
     is_balanced: bool,
     /// Largest force, N, and the index of its load. The index is `None` for gravity.
     cause: (f64, Option<usize>),
@@ -34,7 +34,7 @@ impl Implausible<'_> {
             let counts = if pull.is_balanced {
                 low.abs().max(high.abs())
             } else if low <= 0.0 && high >= 0.0 {
-                // A load that changes its sign may be balanced on average.
+                // The mean of a load that changes its sign may be 0.
                 0.0
             } else {
                 low.abs().min(high.abs())

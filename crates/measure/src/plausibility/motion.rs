@@ -9,34 +9,34 @@ use stickslip_scenario::{Hysteresis, substance};
 
 /// Range of plausible strokes of piezo drives, m: from the noise of amplifiers to the largest flexure drives.
 const STROKES: (f64, f64) = (1e-12, 1e-3);
-/// Largest plausible damping time of a contact, in periods of the drive. Above it, damping forces dominate at all times.
+/// Largest plausible damping time of a contact, in periods of the drive. With longer times, damping forces dominate at all times.
 const DAMPED: f64 = 0.1;
 /// Minimum duration of a flank, in passages of a shear wave through the contact.
 ///
 /// The contact is modelled as a spring without inertia, which holds for ωa/c ≪ 1 (Johnson, *Contact Mechanics*, section 11.2, after Miller
 /// and Pursey). At ten passages of the diameter 2a, T = 20 a/c and ωa/c = 0.3.
 const PASSAGES: f64 = 10.0;
-/// Number of harmonics that are checked. Higher harmonics are so close that one is always near a resonance.
+/// Number of harmonics of the drive frequency that are compared with resonances. A higher harmonic is near every resonance.
 const HARMONICS: u32 = 5;
-/// Relative distance from the resonance frequency within which a harmonic excites it.
+/// Relative distance of a harmonic from a resonance frequency below which the harmonic excites the resonance.
 // The resonance of P1 is at 2.12 times the drive frequency, 6 % from the second harmonic, and is not excited.
 const NEAR: f64 = 0.02;
-/// Smallest amplitude of a harmonic that is reported, relative to the largest one.
+/// Smallest amplitude of a harmonic that is reported, relative to the largest harmonic.
 const NOTICEABLE: f64 = 0.05;
 /// Number of samples per period for the computation of harmonics.
 const MOMENTS: u32 = 4096;
-/// Maximum number of free coordinates for the resonance check. With more modes, one is always near a harmonic.
+/// Maximum number of free coordinates for the resonance check. Of more modes, one is almost always near a harmonic.
 const COORDINATES: usize = 8;
-/// Smallest displacement of a contact in a mode, relative to the largest one, for which the mode is assigned to the contact.
+/// Smallest displacement of a contact in a mode, relative to the largest, for which the mode is attributed to the contact.
 const MOVED: f64 = 0.05;
 
 /// Relative difference below which two times are equal.
 const ROUNDED: f64 = 1e-9;
-/// Damping displacement of a contact at a flank, relative to its natural displacement, above which the error of frames is unbounded.
+/// Damping time of a contact times its velocity jump, relative to its natural displacement, above which the error of frames is unbounded.
 const STRUCK: f64 = 0.1;
-/// Accuracy of frames above which late detection of driver limits is not reported.
+/// Requested accuracy of the stepper `frames` above which a late detection of driver limits is not reported.
 const LIMITS: f64 = 1e-3;
-/// The same accuracy if a voltage window limits a voltage that follows without delay.
+/// The same threshold for a voltage window that limits a voltage without delay.
 const HARD_LIMITS: f64 = 1e-2;
 /// Lift of a foot, relative to the initial indentation, above which the contact may open.
 const LIFTED: f64 = 0.5;
@@ -44,7 +44,7 @@ const LIFTED: f64 = 0.5;
 const PIECES: usize = 100_000;
 /// Number of events or time steps that corresponds to some days of computing time.
 const MANY: f64 = 1e12;
-/// Maximum number of bodies for which this number is estimated. The estimate needs all modes.
+/// Maximum number of bodies for which the number of events is estimated. The estimate needs all normal modes.
 const BODIES: usize = 32;
 /// Highest computing rate of events or time steps, 1/s.
 const RATE: f64 = 1e6;
@@ -142,14 +142,14 @@ impl Implausible<'_> {
         }
     }
 
-    /// Returns the time in which a shear wave crosses contact `c`, s: its diameter divided by √(G/ρ) of the slower material.
+    /// Returns the time in which a shear wave crosses contact `c`, s: the contact diameter divided by √(G/ρ) of the slower material.
     ///
     /// Returns `None` if the materials are unknown or the contact is open.
     fn passage(&self, c: usize) -> Option<f64> {
         let scenario = &self.setting.scenario;
         let (_, law) = self.setting.model.contacts().nth(c)?;
         let radius = law.profile().radius(self.depth(c));
-        // A modulus that does not fit its name has its own warning.
+        // Materials whose modulus does not fit their name have a separate warning.
         let known = scenario.materials_of(c)?.into_iter().filter(|name| !self.misnamed.contains(name));
         let speed = |name: &str| {
             let (modulus, ratio) = scenario.elasticity(name)?;
@@ -226,7 +226,7 @@ impl Implausible<'_> {
                 .map(|(w, _)| setting.scenario.scene.waveforms[*w].part.range())
                 .fold(0.0, |most: f64, (low, high)| most.max(high - low));
             let idle = zero_step_stroke(law, d, 0.0).unwrap_or(0.0);
-            // Below the zero-step stroke, only the back-and-forth motion can be resolved.
+            // Below the zero-step stroke, the expected length is the stroke itself.
             let expected = if widest > idle { widest - idle } else { widest };
             if expected > 0.0 && tolerance * unit > expected {
                 let [expected, unit] = [expected, unit].map(|length| told(length, "m"));
@@ -241,7 +241,7 @@ impl Implausible<'_> {
 
     /// Warns about fixed time steps that are longer than a piece of a waveform.
     ///
-    /// Such a step does not resolve the motion, and the energy balance may be fulfilled nevertheless.
+    /// Such steps do not resolve the motion, although the energy balance may be satisfied.
     pub(super) fn steps(&mut self) {
         let setting = self.setting;
         let stepper = setting.model.effective(setting.scenario.plan.stepper);
@@ -282,7 +282,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Warns about frames whose error is unbounded: if an input sets the normal load, and in the cases of the following methods.
+    /// Warns about cases in which the error of the stepper `frames` is unbounded, such as a normal load set by an input.
     pub(super) fn frames(&mut self, stepper: Stepper) {
         let setting = self.setting;
         let Stepper::Frames { accuracy, .. } = stepper else { return };
@@ -341,7 +341,7 @@ impl Implausible<'_> {
         }
     }
 
-    /// Warns about frames with stacks that reach a limit or have a hysteresis with reversals. Time steps do not end there.
+    /// Warns about frames with stacks that reach a driver limit or have hysteresis, because no time step ends at the limit or reversal.
     fn limited_frames(&mut self, accuracy: f64) {
         let setting = self.setting;
         for piezo in &setting.scenario.stacks {
@@ -450,7 +450,7 @@ fn flank(waveform: &Waveform) -> f64 {
 
 /// Returns the shortest time in which a waveform crosses its range at the mean rate of one of its pieces, s.
 ///
-/// It is the flyback of a sawtooth and half a period of a sine. It is infinite for a constant waveform.
+/// For a sawtooth this is the flyback, for a sine half a period. For a constant waveform the result is infinite.
 fn shortest_flank(waveform: &Waveform) -> f64 {
     let (low, high) = waveform.range();
     let until = waveform.timing().delay + waveform.period().map_or(f64::INFINITY, |period| 1.5 * period);
@@ -462,7 +462,7 @@ fn shortest_flank(waveform: &Waveform) -> f64 {
     flanks.filter(|flank| *flank > 0.0).fold(2.0 * waveform.resolution(), f64::min)
 }
 
-/// Returns the shortest time between two turning points of a waveform until a time, s: its shortest piece or half of its shortest wave.
+/// Returns the shortest time between two turning points of a waveform, s, before `until`: its shortest piece or half of its shortest wave.
 fn quickest(waveform: &Waveform, until: f64) -> f64 {
     let inside = waveform.pieces_from(0.0).take(PIECES).take_while(|piece| piece.end <= until);
     inside.map(|piece| piece.end - piece.start).fold(2.0 * waveform.resolution(), f64::min)

@@ -4,19 +4,19 @@ use crate::sequence::Sequence;
 use crate::series::sum;
 use nalgebra::{Complex, ComplexField, DMatrix, DVector, Schur};
 
-/// Orders of the tried recurrences.
+/// Orders of the recurrences that are fitted.
 // These orders distinguish up to three oscillations.
 const ORDERS: [usize; 5] = [1, 2, 3, 4, 6];
-/// Relative residual below which a recurrence counts as exact. `CLEAN` is the limit for reading the growth factor from the root.
+/// Relative residual below which a recurrence counts as exact. Up to the residual `CLEAN`, the growth factor is that of the root.
 const EXACT: f64 = 1e-5;
 pub(super) const CLEAN: f64 = 0.03;
-/// Maximum number of iterations of a matrix decomposition. It may not converge for a cyclic shift.
+/// Maximum number of iterations of an eigenvalue computation, which may not converge for a cyclic shift matrix.
 const MOST_TURNS: usize = 1000;
 /// Maximum number of fitted values.
 const MOST: usize = 4096;
-/// Minimum number of oscillations for determining the growth factor.
+/// Minimum number of oscillation periods for determining the growth factor.
 const MANY: f64 = 3.0;
-/// Root magnitude above which a recurrence is rejected. Such a recurrence fits rounding.
+/// Magnitude of a root above which a recurrence is rejected, because it fits rounding errors.
 const WILD: f64 = 1.25;
 /// Minimum number of values for a fit.
 pub(super) const FEWEST: usize = 6;
@@ -25,16 +25,16 @@ pub(super) const FEWEST: usize = 6;
 pub(super) struct Recurrence {
     /// Relative residual: ratio of root mean squares, corrected for the degrees of freedom.
     pub(super) rest: f64,
-    /// Largest root: magnitude and angle, rad.
+    /// Largest root of the characteristic polynomial: magnitude and angle, rad.
     pub(super) root: (f64, f64),
-    /// Limit of the sequence.
+    /// Extrapolated limit of the sequence.
     pub(super) limit: f64,
-    /// Difference between this limit and that of another order.
+    /// Difference between the limits of this recurrence and of a recurrence of another order.
     pub(super) apart: f64,
 }
 
 impl Recurrence {
-    /// Returns the lowest order with an exact fit, or else the order with the smallest residual.
+    /// Returns the recurrence of the lowest order with an exact fit, or else the recurrence with the smallest residual.
     pub(super) fn best<S: Sequence + ?Sized>(values: &S) -> Option<Self> {
         let count = values.count();
         if count < FEWEST {
@@ -53,7 +53,7 @@ impl Recurrence {
             let before = best.as_ref().map_or(f64::INFINITY, |best| best.rest);
             let apart = best.as_ref().map_or(f64::INFINITY, |best| (best.limit - fit.limit).abs());
             if before <= EXACT {
-                // The next order is used only for the error of the limit, because it fits rounding.
+                // The next higher order fits rounding errors, so it is used only for the error of the limit.
                 best = best.map(|best| Self { apart: best.apart.min(apart), ..best });
                 break;
             }
@@ -66,7 +66,7 @@ impl Recurrence {
 
     /// Fits a recurrence of one order. The roots are the eigenvalues of the companion matrix, whose first row is a.
     ///
-    /// Returns `None` if there are too few values, if all are equal, or if a root is implausibly large.
+    /// Returns `None` if there are too few values, if all values are equal, or if a root is implausibly large.
     fn of(values: &[f64], order: usize) -> Option<Self> {
         let steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let largest = steps.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
@@ -90,7 +90,7 @@ impl Recurrence {
         });
         let roots = Schur::try_new(companion, f64::EPSILON, MOST_TURNS)?.complex_eigenvalues();
         let largest_root = roots.iter().max_by(|p, q| p.modulus().total_cmp(&q.modulus()))?;
-        // An oscillation and its harmonics grow alike. The slowest one is used.
+        // An oscillation and its harmonics have roots of similar magnitude. The root with the lowest frequency is used.
         let alike =
             |root: &&Complex<f64>| root.modulus() >= 0.995 * largest_root.modulus() && root.argument() != 0.0;
         let slowest =
@@ -111,8 +111,8 @@ impl Recurrence {
 
     /// Returns the growth factor of an oscillation per value.
     ///
-    /// It is the root if the residual is small. Otherwise it follows from the root mean square deviations at the start and at the end of
-    /// the last half. Returns `None` for too few periods, or if the two methods contradict each other.
+    /// The growth factor is the magnitude of the root if the residual is small. Otherwise it follows from the root mean square deviations
+    /// at the start and at the end of the last half. Returns `None` for too few periods, or if the two methods contradict each other.
     pub(super) fn growth<S: Sequence + ?Sized>(&self, values: &S, period: f64) -> Option<f64> {
         let (count, middle) = (values.count(), values.count() / 2);
         let half = count - middle;
@@ -129,7 +129,7 @@ impl Recurrence {
         (growth.is_finite() && (agree || self.rest > CLEAN)).then_some(growth)
     }
 
-    /// Returns the number of crossings of the limit in the last half.
+    /// Returns how many times the last half of the values crosses the limit.
     pub(super) fn crossings<S: Sequence + ?Sized>(&self, values: &S) -> usize {
         let mut above = values.part(values.count() / 2..values.count()).map(|value| value > self.limit);
         let mut before = above.next().unwrap_or_default();

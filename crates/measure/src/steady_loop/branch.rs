@@ -1,16 +1,16 @@
 //! Family of curves for the branches of a steady loop.
 
-/// A branch from one reversal to the other as a function of the relative displacement x from 0 to 1.
+/// Force on a branch from one reversal to the next, as a function of the relative displacement x from 0 to 1.
 ///
 /// B(x) = height · (ρx + (1 - ρ) g(x)/g(1)) with g(x) = 1 - (1 - min(x/y, 1))ⁿ. Gross slip starts at x = y; y > 1 is partial slip. At
-/// constant load, n = 1 is an elastic-plastic element, n = 3/2 a ball and n = 2 a cone. The term with ρ is an elastic part.
+/// constant load, n = 1 is an elastic-plastic element, n = 3/2 a ball and n = 2 a cone. The term with ρ represents a linear elastic part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Branch {
-    /// Relative displacement y at the onset of gross slip.
+    /// Relative displacement x = y at which gross slip starts.
     pub(super) way: f64,
     /// Exponent n.
     pub(super) power: f64,
-    /// Weight ρ of the elastic part.
+    /// Weight ρ of the linear elastic part.
     pub(super) elastic: f64,
 }
 
@@ -28,7 +28,7 @@ impl Branch {
         1.0 - if self.power == 1.0 { left } else { math::exp(self.power * math::ln(left)) }
     }
 
-    /// Returns the slope at the reversal.
+    /// Returns the slope of the branch at the reversal, x = 0.
     pub(super) fn slope(&self) -> f64 {
         self.elastic + (1.0 - self.elastic) * self.power / self.way / self.graded(1.0)
     }
@@ -46,7 +46,7 @@ impl Branch {
         (1.0 - self.elastic) * (2.0 * integral / self.graded(1.0) - 1.0).max(0.0)
     }
 
-    /// Returns half the opening, relative to the stroke, at a force level above the middle, relative to the height.
+    /// Returns half the opening, relative to the stroke, at a force `level` above the middle, relative to the height of the branch.
     ///
     /// Returns `None` outside of the loop.
     pub(super) fn half_opening(&self, level: f64) -> Option<f64> {
@@ -55,7 +55,7 @@ impl Branch {
         Some((0.5 * (1.0 - down - up)).max(0.0))
     }
 
-    /// Returns the x at which B(x) has a value from 0 to 1, by bisection.
+    /// Returns the relative displacement x at which B(x), of height 1, equals `height`, by bisection.
     fn place(&self, height: f64) -> Option<f64> {
         if !(0.0..=1.0).contains(&height) {
             return None;

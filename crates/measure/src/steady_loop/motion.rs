@@ -3,13 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::{PI, TAU};
 
-/// Numbers of harmonics that are tried in this order, as long as the fit improves significantly.
+/// Numbers of harmonics of the fits. The numbers are tried in this order as long as the fit improves significantly.
 const ORDERS: [usize; 9] = [1, 2, 3, 5, 8, 12, 18, 26, 40];
-/// Minimum reduction of the sum of squares by a further harmonic, relative to the expectation for noise.
+/// Minimum reduction of the sum of squares by an additional harmonic, relative to the reduction expected from noise.
 const MORE: f64 = 8.0;
 /// Residual of a spike, in robust standard deviations.
 const SPIKE: f64 = 6.0;
-/// Additional residual of a spike, relative to the largest harmonic. It covers the residuals at corners.
+/// Additional residual of a spike, relative to the largest harmonic. At corners of the motion, residuals up to this value are normal.
 const CORNER: f64 = 0.05;
 /// Tolerance of the harmonics of a triangle, relative to the first harmonic.
 const CORNERS: f64 = 2e-3;
@@ -27,7 +27,7 @@ pub(super) struct Harmonics {
     inverse: DMatrix<f64>,
     /// Standard deviation of the residuals.
     pub(super) deviation: f64,
-    /// Whether each row is used, because it is no spike.
+    /// Whether each row is used: `false` for spikes.
     pub(super) is_sound: Vec<bool>,
 }
 
@@ -112,7 +112,7 @@ impl Harmonics {
 
     /// Returns whether the first harmonics are those of a triangle, which has corners.
     ///
-    /// The third and fifth harmonics of a triangle are 1/9 and 1/25 of the first one. Even harmonics are absent.
+    /// The third and fifth harmonics of a triangle are 1/9 and 1/25 of its first harmonic. Even harmonics of a triangle are 0.
     fn is_triangle(&self, rows: f64) -> bool {
         let pairs: Vec<&[f64]> = self.coefficients[2..].chunks(2).collect();
         let Some(first) = pairs.first().map(|pair| pair[0]).filter(|_| pairs.len() >= 5) else {
@@ -146,11 +146,11 @@ pub(super) struct Motion {
     pub(super) middle: f64,
     /// Angular frequency, rad/s.
     pub(super) frequency: f64,
-    /// Phases of the rows.
+    /// Phase of each row, rad.
     pub(super) phase: Vec<f64>,
     /// Harmonics of the displacement.
     pub(super) harmonics: Harmonics,
-    /// Phase of the minimum.
+    /// Phase of the minimum of the displacement, rad.
     pub(super) turn: f64,
     /// Amplitude δ* and its standard deviation, m.
     pub(super) amplitude: [f64; 2],
@@ -160,7 +160,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Fits displacements with an approximate period. The number of harmonics is increased while the fit improves significantly.
+    /// Fits displacements with an approximate period. Harmonics are added as long as the fit improves significantly.
     pub(super) fn fit(t: &[f64], u: &[f64], period: f64) -> Option<Self> {
         let middle = 0.5 * (t.first()? + t.last()?);
         let time: Vec<f64> = t.iter().map(|t| (t - middle) / period).collect();
@@ -224,7 +224,7 @@ impl Motion {
             let deviation = harmonics.deviation * harmonics.inverse[(2, 2)].sqrt() * PI * PI / 8.0;
             (amplitude, low, turn) = ([first, deviation], -first, PI);
         }
-        // Times were in periods.
+        // The times of this fit are in periods.
         harmonics.coefficients[1] /= period;
         harmonics.inverse[(1, 1)] /= period * period;
         let frequency = TAU * turns / period;
@@ -241,7 +241,7 @@ impl Motion {
     }
 }
 
-/// Returns the phases of the maximum and the minimum, by bisection near the largest and smallest of many points.
+/// Returns the phases of the maximum and the minimum of the harmonics, by bisection near the largest and the smallest of many samples.
 fn extremes(harmonics: &Harmonics) -> (f64, f64) {
     let at = |k: usize| TAU * k as f64 / FINE as f64;
     let values: Vec<f64> = (0..FINE).map(|k| harmonics.at(at(k))).collect();
@@ -257,7 +257,7 @@ fn extremes(harmonics: &Harmonics) -> (f64, f64) {
     (best(1.0), best(-1.0).rem_euclid(TAU))
 }
 
-/// Returns the frequency of the first harmonic relative to the approximate one. Returns `None` if it differs by a factor of 2.
+/// Returns the frequency of the first harmonic relative to the approximate frequency. Returns `None` if the ratio is beyond a factor of 2.
 fn frequency(time: &[f64], u: &[f64]) -> Option<f64> {
     let mut turns = 1.0;
     for _ in 0..ROUNDS {
@@ -266,7 +266,7 @@ fn frequency(time: &[f64], u: &[f64]) -> Option<f64> {
     (0.5..2.0).contains(&turns).then_some(turns)
 }
 
-/// Improves the frequency by one Gauss–Newton step.
+/// Improves the frequency by one step of the Gauss–Newton method.
 fn refine(time: &[f64], u: &[f64], turns: f64, order: usize) -> Option<f64> {
     let phase: Vec<f64> = time.iter().map(|time| TAU * turns * time).collect();
     let fit = Harmonics::fit(time, &phase, u, order)?;

@@ -6,7 +6,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
-/// Number of phase bins.
+/// Number of phase bins into which a period is divided.
 pub(super) const BINS: usize = 256;
 /// Number of intervals per period of the tabulated displacement.
 const TABLE: usize = 2048;
@@ -14,23 +14,23 @@ const TABLE: usize = 2048;
 const WALKERS: usize = 24;
 const STEPS: usize = 400;
 const FORGOTTEN: usize = 160;
-/// Interval of the kept steps, because consecutive steps are correlated.
+/// Number of steps of a Markov chain per kept sample. The others are discarded, because consecutive steps are correlated.
 const KEPT: usize = 4;
-/// Largest stretch factor of a step (Goodman and Weare 2010).
+/// Largest stretch factor of a step of the Markov chains (Goodman and Weare 2010).
 const STRETCH: f64 = 2.0;
 /// Largest time lag, in periods.
 const LAG: f64 = 0.05;
 /// Bounds of the parameters: lag, ln y, and the coordinates of n and ρ.
 ///
-/// Coordinates of n below 1 and of ρ outside of 0 to 1 are set to these limits. Elements with n = 1, ρ = 0 or ρ = 1 then have a finite
-/// probability.
+/// Coordinates of n below 1 and of ρ outside of 0 to 1 are set to these limits. The special values n = 1, ρ = 0 and ρ = 1 then have a
+/// finite probability.
 const BOUNDS: [[f64; 2]; 4] = [[-LAG, LAG], [-4.6, 1.8], [0.6, 2.6], [-0.5, 1.2]];
 
 /// Maximum correlation of neighbouring bins that is taken into account.
 const MOST_ALIKE: f64 = 0.95;
 /// Minimum noise, relative to the largest force.
 const LEAST: f64 = 1e-7;
-/// Maximum number of iterations of the optimisation, and relative step of its finite differences.
+/// Maximum number of iterations of the optimisation, and relative step of the finite differences.
 const ROUNDS: usize = 40;
 const DIFFERENCE: f64 = 1e-6;
 
@@ -42,15 +42,15 @@ type Place = [f64; 4];
 pub(super) struct Folded {
     /// Phase, mean force and number of rows of each bin.
     pub(super) bins: Vec<[f64; 3]>,
-    /// Sum of squares of the rows about the means of their bins, and its degrees of freedom.
+    /// Sum of squared deviations of the rows from the means of their bins, and its degrees of freedom.
     pub(super) within: [f64; 2],
     /// Tabulated relative displacement versus phase ([`Folded::shares`]).
     pub(super) shares: Vec<f64>,
-    /// Phase of the minimum.
+    /// Phase of the minimum displacement.
     pub(super) turn: f64,
 }
 
-/// One posterior sample: lag in periods, branch, its height, N, and the middle of the forces, N.
+/// Posterior sample: time lag in periods, branch, height of the branch, N, and middle of the force range, N.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sample {
     pub(super) lag: f64,
@@ -59,7 +59,7 @@ pub(super) struct Sample {
     pub(super) middle: f64,
 }
 
-/// Height and middle that fit best for a given branch and lag, with the residual.
+/// Best fitting height and middle of the forces for a given branch and lag, with the sum of squared residuals.
 struct Fit {
     squares: f64,
     height: f64,
@@ -81,14 +81,14 @@ impl Folded {
         self.shares[k] + (place - k as f64) * (self.shares[k + 1] - self.shares[k])
     }
 
-    /// Returns the relative displacement since the last reversal at a phase, and whether this reversal was the maximum.
+    /// Returns the relative displacement since the last reversal before a phase, and whether this reversal was the maximum.
     fn way(&self, phase: f64) -> (f64, bool) {
         let share = self.share(phase);
         let goes_down = phase.rem_euclid(TAU) < self.turn;
         ((if goes_down { 1.0 - share } else { share }).clamp(0.0, 1.0), goes_down)
     }
 
-    /// Returns the model force at a phase for height 1, relative to the middle.
+    /// Returns the force of the model at a phase, relative to the middle, for a branch of height 1.
     fn model(&self, branch: &Branch, lag: f64, phase: f64) -> f64 {
         let (way, goes_down) = self.way(phase - TAU * lag);
         let value = branch.at(way) - 0.5;
@@ -113,7 +113,7 @@ impl Folded {
         Fit { squares: (yy - height * xy).max(0.0), height, middle, weight: xx }
     }
 
-    /// Returns the residuals of all bins for the best height and middle, and the fit.
+    /// Returns the weighted residuals of all bins for the best fitting height and middle, and this fit.
     fn left(&self, place: &Place) -> (DVector<f64>, Fit) {
         let (fit, branch) = (self.fit(place), branch(place));
         let left = self.bins.iter().map(|[phase, force, rows]| {
@@ -125,7 +125,7 @@ impl Folded {
 
     /// Returns the best parameters for a given sign of the force, with a free or a known lag.
     ///
-    /// It starts from the best points of a grid for each exponent and uses the Levenberg–Marquardt method.
+    /// The Levenberg–Marquardt method starts from the best grid point for each of three exponents.
     fn best(&self, lag: Option<f64>, is_turned: bool) -> (f64, Place) {
         let lags: Vec<f64> = match lag {
             Some(lag) => vec![lag],
@@ -150,7 +150,7 @@ impl Folded {
         ends.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or(starts[0])
     }
 
-    /// Improves the parameters from index `first` on.
+    /// Optimises the parameters from index `first` on; earlier parameters are constant.
     fn improve(&self, start: (f64, Place), first: usize, is_turned: bool) -> (f64, Place) {
         let (mut squares, mut place) = start;
         if squares.is_infinite() {
@@ -202,8 +202,8 @@ impl Folded {
 
     /// Returns the noise variance of a row, and the root mean square misfit of the best branch.
     ///
-    /// The noise is that of the rows. If the deviations of the bins from the branch are significantly larger, they determine the noise.
-    /// Otherwise the misfit is 0.
+    /// The noise is the scatter of the rows within bins. If the bins deviate significantly more from the branch, their deviations determine
+    /// the noise. Otherwise the misfit is 0.
     fn noise(&self, squares: f64) -> (f64, f64) {
         let count = self.bins.len() as f64;
         let rows: f64 = self.bins.iter().map(|bin| bin[2]).sum();
@@ -217,7 +217,7 @@ impl Folded {
         (noise.max(least), if is_other { (squares / rows).sqrt() } else { 0.0 })
     }
 
-    /// Returns the number of neighbouring bins that count as one, because their residuals are correlated.
+    /// Returns the number of bins that count as one independent bin, because the residuals of neighbouring bins are correlated.
     fn likeness(&self, place: &Place) -> f64 {
         let (left, _) = self.left(place);
         let next: f64 = (0..left.len()).map(|k| left[k] * left[(k + 1) % left.len()]).sum();
@@ -225,7 +225,7 @@ impl Folded {
         (1.0 + share) / (1.0 - share)
     }
 
-    /// Samples the parameters from the posterior distribution, with a free or a known lag. Also returns the misfit, N.
+    /// Samples the parameters from the posterior distribution, with a free or a known lag. The second result is the misfit, N.
     pub(super) fn sample(&self, lag: Option<f64>) -> (Vec<Sample>, f64) {
         let (best, place) = self.best(lag, false);
         let (noise, misfit) = self.noise(best);
@@ -238,7 +238,7 @@ impl Folded {
                 return f64::NEG_INFINITY;
             }
             let fit = self.fit(place);
-            // Marginalisation over the height, whose prior is uniform.
+            // The likelihood is marginalised over the height, which has a uniform prior.
             if fit.height > 0.0 {
                 -0.5 * fit.squares / noise - 0.5 * math::ln(fit.weight)
             } else {
@@ -278,7 +278,7 @@ impl Folded {
         (samples, misfit)
     }
 
-    /// Returns the range of each parameter within which the sum of squares is below `limit`.
+    /// Returns for each parameter from index `first` on a distance at which the sum of squares does not exceed `limit` on both sides.
     fn widths(&self, place: &Place, limit: f64, first: usize) -> Place {
         std::array::from_fn(|k| {
             let [low, high] = BOUNDS[k];

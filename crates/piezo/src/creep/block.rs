@@ -9,8 +9,8 @@ use stickslip_drive::{EventKind, Sample};
 
 /// Creep filter y = a v + Σ gᵢ xᵢ with τᵢ ẋᵢ = v - xᵢ, or its inverse from y to v; see [`Creep`].
 ///
-/// Filter and inverse have the same states. In series and with equal initial states they cancel except for rounding. The initial
-/// states are xᵢ = v, as after a long rest.
+/// Filter and inverse have the same states. In series and with equal initial states, filter and inverse cancel except for rounding. The
+/// initial states are xᵢ = v, as after a long time with constant input.
 #[derive(Debug)]
 pub struct CreepBlock {
     law: Creep,
@@ -32,7 +32,7 @@ impl CreepBlock {
         Self { law, way: Way::Forward, inputs: [Input::Signal(reading.signal)], reading }
     }
 
-    /// Creates the inverse filter: its output, filtered by the creep law, is the input signal.
+    /// Creates the inverse filter: filtering its output by the creep law gives its input signal.
     pub fn inverse(law: Creep, reading: Reading) -> Self {
         Self { way: Way::Inverse, ..Self::new(law, reading) }
     }
@@ -40,7 +40,7 @@ impl CreepBlock {
     /// Returns input v and output y of the creep law, with their derivatives.
     fn both(&self, at: &Moment<'_, [Sample]>) -> [Sample; 2] {
         let input = at.inputs[0];
-        // Σ gᵢxᵢ and its derivatives follow from ẋᵢ = (v - xᵢ)/τᵢ and ẍᵢ = (v̇ - ẋᵢ)/τᵢ.
+        // Σ gᵢxᵢ and the time derivatives of this sum follow from ẋᵢ = (v - xᵢ)/τᵢ and ẍᵢ = (v̇ - ẋᵢ)/τᵢ.
         let value = self.crept(|i| at.states[i]);
         let a = self.law.direct();
         let v = |known: f64, sum: f64| match self.way {
@@ -142,11 +142,11 @@ impl Block for CreepBlock {
         if self.way == Way::Forward { output } else { input }
     }
 
-    /// Returns the range of the output for any history within the range of the input. The inverse overshoots after a sudden change.
+    /// Returns the range of the output for any history of the input within its range. The inverse overshoots after a sudden change.
     fn range(&self, inputs: &[(f64, f64)]) -> (f64, f64) {
         let ((low, high), law) = (inputs[0], &self.law);
         let (direct, settled) = (law.direct(), law.settled());
-        // v and all xᵢ are within the range: y = a v + Σ gx, or v = (y - Σ gx)/a.
+        // The range follows because v and all xᵢ are within the range of v: y = a v + Σ gx, or v = (y - Σ gx)/a.
         let (own, kept) = match self.way {
             Way::Forward => (direct, settled - direct),
             Way::Inverse => (direct.recip(), (1.0 - settled / direct) / settled),

@@ -12,11 +12,11 @@ use nalgebra::{DMatrix, DVector};
 /// least-squares fit of lg(t/t₀) over these decades. [`Creep::misfit`] is the largest error of the fit. This error is 0.0086 decades
 /// for D = 5 and at most 0.01 decades.
 ///
-/// The response to a step starts at 1 + c₀γ with c₀ from -0.58 to -0.54. Beyond the last decade the response settles within one
-/// decade. The response to any other input is linear in the input.
+/// The response to a step starts at 1 + c₀γ with c₀ from -0.58 to -0.54. Beyond the last decade the response settles within one decade. The
+/// model is linear in the input.
 ///
-/// Source: K. Kuhnen, P. Krejčí, IEEE Transactions on Automatic Control 54 (2009) 537; for the logarithm: H. Jung, D.-G. Gweon,
-/// Review of Scientific Instruments 71 (2000) 1896.
+/// Source: Kuhnen and Krejčí, IEEE Transactions on Automatic Control 54 (2009) 537; for the logarithm: Jung and Gweon, Review of Scientific
+/// Instruments 71 (2000) 1896.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Creep {
     /// Immediate response to a unit step, 1 + γ c₀.
@@ -34,7 +34,7 @@ pub enum CreepError {
     /// The creep per decade γ is out of range.
     #[error("expected creep above 0 and below {most} per decade, got {got}", most = Creep::STRONGEST)]
     Strength {
-        /// Value given.
+        /// Value of γ that was given.
         got: f64,
     },
     /// The time t₀ is not above 0 or not finite.
@@ -43,7 +43,7 @@ pub enum CreepError {
     /// The number of decades D is out of range.
     #[error("expected 1 to {most} decades, got {got}", most = Creep::LONGEST)]
     Decades {
-        /// Value given.
+        /// Number of decades that was given.
         got: usize,
     },
 }
@@ -54,16 +54,16 @@ const BEYOND: f64 = 0.1;
 const PER_DECADE: usize = 48;
 
 impl Creep {
-    /// Default t₀, s.
+    /// Default time t₀ after a step at which creep starts, s.
     pub const FROM: f64 = 0.1;
     /// Default number of decades.
     pub const DECADES: usize = 5;
     /// Largest number of decades.
     pub const LONGEST: usize = 6;
-    /// Upper limit of γ.
+    /// Upper limit of the creep per decade γ.
     pub const STRONGEST: f64 = 0.5;
 
-    /// Creates the law from γ per decade, t₀ in s, and the number of decades.
+    /// Creates the law from the creep γ per decade, the time t₀ in s, and the number of decades.
     ///
     /// # Errors
     ///
@@ -110,7 +110,7 @@ impl Creep {
         &self.weights
     }
 
-    /// Returns the largest error against the logarithm within the fitted decades, relative to L₁.
+    /// Returns the largest difference between the sum of exponentials and the logarithm within the fitted decades, relative to L₁.
     pub fn misfit(&self) -> f64 {
         self.misfit
     }

@@ -1,8 +1,8 @@
-//! Implementation of the block contract for the driver.
+//! Implementation of the block interface for the driver.
 //!
-//! The states are the voltage, the work of the source, the losses and, with a low-pass, its output and output rate. Without a resistance
-//! the voltage in the mode [`Output::Free`] equals the followed signal exactly. The voltage state is integrated at the same rate. The
-//! memory stores the difference between both as an offset, with which integration continues when a current limit begins.
+//! The states are the voltage, the work of the source, the losses and, with a low-pass, output and output rate of the low-pass. Without a
+//! resistance, the voltage in the mode [`Output::Free`] equals the followed signal exactly, and the voltage state has the rate of this
+//! signal. The memory stores the difference between voltage and state as an offset, which is added when a current limit begins.
 
 use super::course::{ABOVE, BELOW, FALLING, FREE, INSIDE, RISING};
 use super::stage::{At, LOST, LOW, LOW_RATE, Now, ROUNDING, VOLTAGE, WORK};
@@ -21,8 +21,8 @@ const NEAR: f64 = 1e-8;
 const LEAST_LAG: f64 = 1e-2;
 
 impl Driver {
-    /// Returns the error scale of the voltage as a fraction of its range: the lag due to RC at the fastest command. Without a
-    /// resistance it is 1.
+    /// Returns the error scale of the voltage as a fraction of its range: the lag due to RC at the fastest command. Without a resistance
+    /// the error scale is 1.
     fn lag(&self) -> f64 {
         let (down, up) = self.spec.slew();
         let fastest = (up.min(down) / self.span).min(self.quickest.recip());
@@ -35,7 +35,7 @@ impl Driver {
         self.spec.low.map_or(1.0, |low| (2.0 * low.ratio / self.spec.omega() * fastest).clamp(LEAST_LAG, 1.0))
     }
 
-    /// Whether the current is continuous except at jumps of the command. A continuous current requires a resistance, or a low-pass
+    /// Returns whether the current is continuous except at jumps of the command. A continuous current requires a resistance, or a low-pass
     /// without current limits.
     fn goes_on(&self) -> bool {
         self.spec.resistance.is_some() || self.spec.low.is_some() && self.spec.current.is_none()
@@ -53,8 +53,8 @@ impl Driver {
 
     /// Adds one step to the totals of the driver.
     ///
-    /// `given` is the charge moved in the step, as a stroke in m, and the work of the source in J. `end` contains current and source
-    /// power at the end of the step. `slopes` contains their time derivatives at the end.
+    /// `given` is the charge moved in the step, as a stroke in m, and the work of the source in J. `end` contains current and source power
+    /// at the end of the step. `slopes` contains the time derivatives of current and source power at the end.
     fn count(
         &self,
         kept: &mut Kept,
@@ -66,13 +66,13 @@ impl Driver {
         (kept.flow, kept.power) = (end[0], end[1]);
         kept.fastest = kept.fastest.max(end[0].abs());
         if !passage.located {
-            // In a step across a corner the values at its end do not determine those at its start.
+            // In a step across a corner, the current at the end of the step does not determine the current at its start.
             kept.way += given[0].abs();
             kept.drawn += given[1].max(0.0);
             return;
         }
-        // A continuous current is known at both ends. Otherwise its slope at the end is used, if strain causes no charge. A step that
-        // is longer than the time constant of a stage uses linear interpolation.
+        // A continuous current is known at both ends of the step. Otherwise the slope of the current at the end is used, if strain causes
+        // no charge. A step longer than the time constant of a stage uses linear interpolation.
         let is_known = time * self.spec.rate() < 1.0 && (self.goes_on() || self.strain.is_none());
         let paces = [0, 1].map(|i| {
             let (given, last) = (given[i], time * end[i]);
@@ -133,7 +133,7 @@ impl Component for Driver {
         match (guard, course.output, self.spec.resistance) {
             (RISING, ..) => up - wish,
             (FALLING, ..) => wish + down,
-            // The limit ends when the followed signal meets the voltage or, with a resistance, when the unlimited current is within
+            // A current limit ends when the followed signal meets the voltage or, with a resistance, when the unlimited current is within
             // the limits.
             (_, Output::Rising, None) => followed.value - voltage.value,
             (_, _, None) => voltage.value - followed.value,
@@ -156,13 +156,13 @@ impl Component for Driver {
         let followed = self.followed((course, at.located), at.inputs[0], at.states);
         let elongated = self.elongation(at.inputs).rate;
         let decided = match (guard, self.spec.resistance) {
-            // The voltage equals the followed signal except for rounding; the rate decides about the next mode.
+            // The voltage equals the followed signal except for rounding, so the rate of this signal determines the next mode.
             (FREE, None) => {
                 let met = Sample { value: voltage.value, ..followed };
                 Some(self.output(met, (at.states, voltage.value, elongated)))
             }
             (FREE, Some(_)) => Some(Output::Free),
-            // The rate of the command jumps at an end of the window.
+            // The rate of the limited command jumps at an end of the window, so the output mode is determined again.
             (INSIDE | BELOW | ABOVE, _) if before.output == Output::Free => {
                 let met = if self.spec.resistance.is_none() {
                     Sample { value: voltage.value, ..followed }
@@ -177,10 +177,10 @@ impl Component for Driver {
         (EventKind::Own(course.word(before)), course.law())
     }
 
-    /// Updates the totals. A limited voltage does not follow a jump of the command.
+    /// Updates the totals of the driver. A limited voltage does not follow a jump of the command.
     fn commit(&self, memory: &mut Vec<f64>, passage: &Passage) -> Result<f64, Refused> {
         let Some(mut kept) = Kept::read(memory) else {
-            return Err(Refused("its memory is of another kind".to_owned()));
+            return Err(Refused("its memory belongs to another block".to_owned()));
         };
         let course = Course::of(passage.law);
         let Some(&command) = passage.inputs.first() else { return Ok(0.0) };
@@ -188,7 +188,7 @@ impl Component for Driver {
         if jumps && self.spec.current.is_some() && self.spec.resistance.is_none() {
             return Ok(0.0);
         }
-        // After a jump the mode is still the one before. The window is therefore applied independently of the mode.
+        // After a jump of the command the mode has not changed yet. The window is therefore applied independently of the mode.
         let located = passage.located && !jumps;
         let followed = self.followed((course, located), command, &passage.states);
         let elongation = self.elongation(&passage.inputs);
@@ -200,7 +200,7 @@ impl Component for Driver {
         if self.spec.resistance.is_none() && (course.output == Output::Free || !passage.located) {
             kept.offset = voltage.value - passage.states[VOLTAGE];
         }
-        // At the start the elongation is not known.
+        // At the start of a run the elongation is not known.
         let before = if kept.time > 0.0 { kept.elongation } else { elongation.value };
         let given = [
             self.flow(voltage.value - kept.last, elongation.value - before),
@@ -211,7 +211,7 @@ impl Component for Driver {
         if jumps {
             kept.way += given[0].abs();
             kept.drawn += given[1].max(0.0);
-            // The mode is still the one before, so the current is limited here. Without R and low-pass the charge flows in zero time.
+            // The mode has not changed yet, so the current is limited here. Without R and low-pass the charge flows in zero time.
             let (down, up) = self.spec.slew();
             let after = if self.goes_on() { flow.clamp(-down, up) } else { 0.0 };
             (kept.flow, kept.power) = (after, self.source(followed, after));
@@ -235,7 +235,7 @@ impl Component for Driver {
         Ok(0.0)
     }
 
-    /// Returns 0: the driver's energy balance is separate from the mechanical one and is written as columns.
+    /// Returns 0, because the driver has a separate energy balance, which is written as output columns.
     fn energy(&self, _: Now<'_>, _: &At<'_>) -> f64 {
         0.0
     }
@@ -252,7 +252,7 @@ impl Block for Driver {
         &self.inputs
     }
 
-    /// Starts at rest with the voltage equal to the command, which must be inside the window.
+    /// Starts at rest. The voltage equals the command, which must be inside the window.
     fn start(&self, inputs: &[Sample]) -> (Vec<f64>, Vec<f64>) {
         let value = inputs.first().map_or(0.0, |command| command.value);
         let mut states = vec![value, 0.0, 0.0];
@@ -322,7 +322,7 @@ impl Block for Driver {
         (course != before).then(|| (EventKind::Own(course.word(before)), course.law()))
     }
 
-    /// Adds the energy of a jump that the driver transmits: ½C(V₂² - V₁²), with the capacitance of the held stack. A jump has no losses.
+    /// Adds the energy of a transmitted jump: ½C(V₂² - V₁²), with the capacitance of the held stack. A jump has no losses.
     fn jump(&self, standing: Now<'_>, at: &At<'_>, states: &mut [f64]) {
         if self.passes_jumps() {
             let course = Course::of(*standing.law);
@@ -338,7 +338,7 @@ impl Block for Driver {
         }
     }
 
-    /// Returns whether the voltage jumps with its command. Only a driver without resistance, low-pass and current limits transmits jumps.
+    /// Returns whether the voltage jumps with its command: true for a driver without resistance, low-pass and current limits.
     fn passes_jumps(&self) -> bool {
         self.spec.current.is_none() && self.spec.resistance.is_none() && self.spec.low.is_none()
     }
@@ -357,8 +357,8 @@ impl Block for Driver {
         (up.max(down) / (CHATTER * self.span)).max(slow).max(self.spec.omega())
     }
 
-    /// Returns whether the signal depends on a state. Energies do not count, nor does the voltage state in the free mode without a
-    /// resistance.
+    /// Returns whether the output signal depends on a state. Energies have no effect on the signal, nor does the voltage state in the free
+    /// mode without a resistance.
     fn depends(&self, law: usize, state: usize) -> bool {
         match state {
             VOLTAGE => self.spec.resistance.is_some() || Course::of(law).output != Output::Free,
@@ -383,7 +383,7 @@ impl Block for Driver {
         let volts = voltage.value / self.spec.gain;
         let elongation = self.elongation(at.inputs);
         let stored = self.stored(voltage.value, elongation.value);
-        // After a corner of the command the mode is still the one before, so the current is limited here.
+        // After a corner of the command the mode has not changed yet, so the current is limited here.
         let (down, up) = self.spec.slew();
         let current = self.current(self.flow(voltage.rate, elongation.rate).clamp(-down, up));
         row.extend([volts, current, at.states[WORK], stored, at.states[LOST]]);

@@ -28,7 +28,7 @@ pub(super) struct Course {
     pub(super) output: Output,
 }
 
-/// Indices of the event functions, each named after the mode that follows.
+/// Indices of the event functions. Each event function is named after the mode that follows its event.
 pub(super) const INSIDE: usize = 0;
 pub(super) const BELOW: usize = 1;
 pub(super) const ABOVE: usize = 2;
@@ -70,7 +70,7 @@ impl Course {
         [window, output].concat()
     }
 
-    /// Returns the name of the event that changes the mode from `before` to this one.
+    /// Returns the name of the event that changes the mode from `before` to this mode.
     pub(super) fn word(self, before: Self) -> &'static str {
         if self.output == before.output {
             return match self.window {

@@ -12,7 +12,7 @@ pub struct Spec {
     pub gain: f64,
     /// Voltage window: smallest and largest voltage, V.
     pub window: Option<(f64, f64)>,
-    /// Largest currents out of the stack and into it, A, both above 0.
+    /// Largest currents out of the stack and into the stack, A, both above 0.
     pub current: Option<(f64, f64)>,
     /// Resistance of the output stage, Ω, above 0.
     pub resistance: Option<f64>,
@@ -37,14 +37,14 @@ pub enum Control {
     /// The driver controls the voltage. The stack follows with hysteresis and creep.
     #[default]
     Voltage,
-    /// The driver controls the charge. The stack follows with little hysteresis and creep. The voltage V then stands for charge over C.
+    /// The driver controls the charge. The stack follows with little hysteresis and creep. The voltage V then represents charge over C.
     Charge,
 }
 
 /// Reason why a driver specification is invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SpecError {
-    /// A value that must be above 0 is not.
+    /// A value that must be above 0 is 0, negative or not finite.
     #[error("{0} must be a finite number above 0")]
     NotPositive(&'static str),
     /// The lower end of the window is not below the upper end.
@@ -80,7 +80,7 @@ impl Spec {
         }
     }
 
-    /// Returns the largest rates of the stroke downwards and upwards, m/s: αI/C; infinite without a limit.
+    /// Returns the largest falling and rising rates of the stroke, m/s: αI/C; infinite without a current limit.
     pub(crate) fn slew(&self) -> (f64, f64) {
         let of = |current: f64| self.gain * current / self.capacitance;
         self.current.map_or((f64::INFINITY, f64::INFINITY), |(sink, source)| (of(sink), of(source)))

@@ -5,13 +5,13 @@ use crate::figures::{Last, last};
 use stickslip_drive::Sample;
 use stickslip_drive::component::{Moment, Standing};
 
-/// Relative rounding of a voltage against its range and of a rate against its limit. Smaller differences do not change the mode.
+/// Relative rounding of a voltage against its range, and of a rate against its limit. Smaller differences do not change the mode.
 pub(super) const ROUNDING: f64 = 1e-12;
 
 pub(super) type At<'a> = Moment<'a, [Sample]>;
 pub(super) type Now<'a> = Standing<'a, usize, Vec<f64>>;
 
-/// Indices of the states.
+/// Indices of the driver's states: voltage, source work, losses, low-pass output and output rate.
 pub(super) const VOLTAGE: usize = 0;
 pub(super) const WORK: usize = 1;
 pub(super) const LOST: usize = 2;
@@ -29,7 +29,7 @@ impl Driver {
         let (low, high) = self.spec.reach();
         let held = |value: f64| Sample { value, rate: 0.0, acceleration: 0.0 };
         let cut = match course.window {
-            // With located events, the signal is smooth in each mode. Other steps may cross an end of the window and are limited there.
+            // If steps end at events, the signal is smooth in each mode. Other steps may cross an end of the window and are limited there.
             Window::Inside if located => command,
             Window::Below if located => held(low),
             Window::Above if located => held(high),
@@ -51,7 +51,7 @@ impl Driver {
         self.spec.time().map_or_else(follows, |time| (followed.value - states[VOLTAGE]) / time)
     }
 
-    /// Returns the voltage as a stroke, m, and its rate, m/s, in a mode.
+    /// Returns the voltage in a mode, as a stroke, m, with its rate, m/s.
     pub(super) fn voltage(
         &self,
         course: Course,
@@ -60,7 +60,7 @@ impl Driver {
     ) -> Sample {
         let (down, up) = self.spec.slew();
         let own = states[VOLTAGE] + offset;
-        // The acceleration of the elongation is not known yet; bodies at the stack do not use it.
+        // The acceleration of the elongation is not known here; bodies at the stack do not use the second derivative of the voltage.
         let limited =
             |flow: f64| Sample { value: own, rate: self.charged(flow, elongated), acceleration: 0.0 };
         match (course.output, self.spec.time()) {
@@ -77,7 +77,7 @@ impl Driver {
 
     /// Returns the voltage for steps that do not locate events, with the current limits applied in every mode.
     ///
-    /// The voltage at time `t` (s) cannot differ from that of the last step by more than the limits allow in the time between.
+    /// From the last step to the time `t` (s), the voltage can change only as much as the current limits allow in this time.
     pub(super) fn saturated(
         &self,
         followed: Sample,
@@ -120,7 +120,7 @@ impl Driver {
         memory.first().copied().unwrap_or(0.0)
     }
 
-    /// Returns the mode, the followed signal and the voltage.
+    /// Returns the mode, the signal that the output stage follows, and the voltage.
     pub(super) fn now(&self, standing: Now<'_>, at: &At<'_>) -> (Course, Sample, Sample) {
         let course = Course::of(*standing.law);
         let followed = self.followed((course, at.located), at.inputs[0], at.states);
@@ -133,7 +133,7 @@ impl Driver {
         (course, followed, voltage)
     }
 
-    /// Returns the mode of the output stage, from the voltage and the current without limits.
+    /// Returns the mode of the output stage, from the voltage and the current that would flow without limits.
     pub(super) fn output(
         &self,
         followed: Sample,

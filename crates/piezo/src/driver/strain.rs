@@ -4,7 +4,7 @@ use super::Driver;
 use super::stage::{At, LOW};
 use stickslip_drive::Sample;
 
-/// Coupling of strain and charge.
+/// Coupling between strain and charge of the stack.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Strain {
     /// Coupling κ = kα²/C, above 0 and below 1.
@@ -12,7 +12,7 @@ pub(super) struct Strain {
 }
 
 impl Driver {
-    /// Returns the elongation, m, and its rate; 0 without strain coupling.
+    /// Returns the elongation of the stack, m, and its rate; 0 without strain coupling.
     pub(super) fn elongation(&self, inputs: &[Sample]) -> Sample {
         let none = Sample { value: 0.0, rate: 0.0, acceleration: 0.0 };
         self.strain.and_then(|_| inputs.get(1).copied()).unwrap_or(none)
@@ -44,12 +44,12 @@ impl Driver {
         0.5 * self.spec.capacitance * volts * volts - self.stiffness() * stroke * (stroke - elongation)
     }
 
-    /// Returns the index of the state with the work of the stack, after the states of the low-pass.
+    /// Returns the index of the state with the work of the stack; this state follows the states of the low-pass.
     pub(super) fn worked(&self) -> Option<usize> {
         self.strain.map(|_| if self.spec.low.is_some() { LOW + 2 } else { LOW })
     }
 
-    /// Returns the power of the stack, W: its force times the rate of its free stroke.
+    /// Returns the power of the stack, W: force of the stack times rate of its free stroke.
     pub(super) fn power(&self, voltage: Sample, at: &At<'_>) -> f64 {
         self.stiffness() * (voltage.value - self.elongation(at.inputs).value) * voltage.rate
     }

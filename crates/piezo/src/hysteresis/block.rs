@@ -10,10 +10,10 @@ use stickslip_drive::{EventKind, Sample};
 
 /// Prandtl–Ishlinskii hysteresis of a signal; see [`Plays`].
 ///
-/// A mode consists of the direction of the input and the number k of engaged plays. Its number is 2k for a rising and 2k + 1 for a
-/// falling input. In each mode the output is linear in the input. A mode ends when the input engages the next play or reverses. The
-/// memory contains the positions pᵢ of the plays, which are exact at every event. A jump of the input is treated as a monotone change
-/// in zero time.
+/// A mode consists of the direction of the input and the number k of engaged plays. The number of a mode is 2k for a rising and 2k + 1 for
+/// a falling input. In each mode the output is linear in the input. A mode ends when the input engages the next play or reverses. The
+/// memory contains the positions pᵢ of the plays, which are exact at every event. A jump of the input is treated as a monotone change in
+/// zero time.
 #[derive(Debug)]
 pub struct PlayBlock {
     plays: Plays,
@@ -41,7 +41,7 @@ impl PlayBlock {
         &self.plays
     }
 
-    /// Returns the mode for an input at v that moves in a direction `sense`.
+    /// Returns the mode for an input with the value v that moves in a direction `sense`.
     fn law_at(&self, memory: &[f64], (v, sense): (f64, f64)) -> usize {
         let slack = SLACK * self.reading.span + LAST_PLACES * f64::EPSILON * v.abs();
         Self::law(self.plays.taken_up(memory, (v, sense), slack), sense)
@@ -98,7 +98,7 @@ impl Component for PlayBlock {
         (EventKind::Own(TURNED), self.law_at(standing.memory, (v, -sense)))
     }
 
-    /// Moves the plays to the input at the end of the step. Within a step the input does not reverse.
+    /// Moves the plays to the input at the end of the step. The input does not reverse within a step.
     fn commit(&self, memory: &mut Vec<f64>, passage: &Passage) -> Result<f64, Refused> {
         self.plays.drag(memory, passage.inputs[0].value);
         Ok(0.0)
@@ -146,7 +146,7 @@ impl Block for PlayBlock {
         self.plays.range(inputs[0])
     }
 
-    /// Returns the mode after a corner or jump. An input at rest keeps its direction.
+    /// Returns the mode after a corner or jump of the input. An input at rest keeps its direction.
     fn turn(
         &self,
         standing: Standing<'_, usize, Vec<f64>>,
@@ -172,7 +172,7 @@ impl Block for PlayBlock {
         self.reading.turns
     }
 
-    /// Returns the number of plays plus one: after a reversal each play may be engaged.
+    /// Returns the number of plays plus one: a reversal is one event, and after a reversal each play may be engaged.
     fn events_per_turn(&self) -> u32 {
         u32::try_from(1 + self.plays.count()).unwrap_or(u32::MAX)
     }

@@ -2,12 +2,12 @@
 
 /// Bouc–Wen hysteresis y = v - z with z' = A v' - β|v'||z|ⁿ⁻¹z - γ v'|z|ⁿ, where v is the input stroke.
 ///
-/// The parameters are `slope` A, `limit` z_m = (A/(β + γ))^{1/n}, `share` β/(β + γ), and `exponent` n. A is the fraction of a small
-/// motion by which the output lags. z_m is the largest lag. With ζ = z/z_m the equation is dζ/dv = (A/z_m)(1 - |ζ|ⁿ) while |z| grows.
-/// While |z| decreases it is dζ/dv = (A/z_m)(1 + (2 share - 1)|ζ|ⁿ). For n = 1 both solutions are exponentials of v.
+/// The parameters are `slope` A, `limit` z_m = (A/(β + γ))^{1/n}, `share` β/(β + γ), and `exponent` n. A is the fraction of a small motion
+/// by which the output lags. z_m is the largest lag. With ζ = z/z_m the equation is dζ/dv = (A/z_m)(1 - |ζ|ⁿ) while |z| grows. While |z|
+/// decreases, the equation is dζ/dv = (A/z_m)(1 + (2 share - 1)|ζ|ⁿ). For n = 1 both solutions are exponentials of v.
 ///
-/// Source: R. Bouc (1967); Y.-K. Wen, Journal of the Engineering Mechanics Division 102 (1976) 249; T. S. Low and W. Guo, Journal of
-/// Microelectromechanical Systems 4 (1995) 230, for piezo actuators.
+/// Source: Bouc (1967); Wen, Journal of the Engineering Mechanics Division 102 (1976) 249; for piezo actuators: Low and Guo, Journal of
+/// Microelectromechanical Systems 4 (1995) 230.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoucWen {
     slope: f64,
@@ -25,9 +25,9 @@ pub enum BoucWenError {
     /// The slope is out of range: there would be no hysteresis, or the output would not follow the direction of the input.
     #[error("expected a slope above 0 and, with this share, below {most}, got {got}")]
     Slope {
-        /// Upper limit 1/(2 share).
+        /// Upper limit of the slope, 1/(2 share).
         most: f64,
-        /// Value given.
+        /// Value of the slope that was given.
         got: f64,
     },
     /// The limit z_m is not above 0 or not finite.
@@ -36,12 +36,12 @@ pub enum BoucWenError {
     /// The exponent n is out of range.
     #[error("expected an exponent from 1 to {most}, got {got}", most = BoucWen::SHARPEST)]
     Exponent {
-        /// Value given.
+        /// Value of the exponent that was given.
         got: f64,
     },
 }
 
-/// Longest integration step in v, in units of z_m/A. The fourth-order method then has an error of about 1e-12 z_m.
+/// Longest integration step in v, in units of z_m/A, with which the fourth-order method has an error of about 1e-12 z_m.
 const STRIDE: f64 = 1.0 / 256.0;
 /// Number of Newton steps that locate the zero crossing of z.
 const NEWTON: u32 = 4;
@@ -79,7 +79,7 @@ impl BoucWen {
         self.limit
     }
 
-    /// Returns the slope A.
+    /// Returns the slope A of the lag z over the input at z = 0.
     pub fn slope(&self) -> f64 {
         self.slope
     }
@@ -112,7 +112,7 @@ impl BoucWen {
             return z;
         }
         let (sense, left) = (way.signum(), way.abs() * self.slope / self.limit);
-        // A falling v is mirrored, so that v rises.
+        // A falling input v is mirrored, so that the equation is solved for a rising input.
         let (mut x, mut left) = (sense * z / self.limit, left.min(FORGOTTEN));
         if self.exponent == 1.0 {
             return sense * self.limit * self.along_exponentials(x, left);
@@ -123,7 +123,7 @@ impl BoucWen {
             let (mut h, s) = (left.min(STRIDE), side(x));
             let mut next = runge_kutta(x, h, |x| rate(x, s));
             if s < 0.0 && next > 0.0 {
-                // The branch changes at z = 0, which Newton's method locates.
+                // The branch of the equation changes at z = 0, which Newton's method locates.
                 for _ in 0..NEWTON {
                     h -= next / rate(next, s);
                     next = runge_kutta(x, h, |x| rate(x, s));

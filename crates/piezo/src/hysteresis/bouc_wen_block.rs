@@ -10,9 +10,9 @@ use stickslip_drive::{EventKind, Sample};
 
 /// Bouc–Wen hysteresis y = v - z of a signal v, with z as the state; see [`BoucWen`].
 ///
-/// A mode is the direction of the input and the sign of z. Modes 0 and 1 have z ≥ 0, modes 2 and 3 have z < 0. In modes 1 and 3 the
-/// input falls. A mode ends when the input reverses, or when a decreasing |z| crosses 0. The memory contains the input at the last
-/// commit, from which a jump is integrated.
+/// A mode consists of the direction of the input and the sign of z. Modes 0 and 1 have z ≥ 0, modes 2 and 3 have z < 0. In modes 1 and 3
+/// the input falls. A mode ends when the input reverses, or when a decreasing |z| reaches 0. The memory contains the input at the last
+/// committed step, from which a jump is integrated.
 #[derive(Debug)]
 pub struct BoucWenBlock {
     law: BoucWen,
@@ -20,7 +20,7 @@ pub struct BoucWenBlock {
     reading: Reading,
 }
 
-/// Indices of the event functions: rate of the input, and z.
+/// Indices of the event functions: rate of the input, and lag z.
 const TURNS: usize = 0;
 const CROSSES: usize = 1;
 /// Fraction of z_m below which z counts as 0 when a mode is selected.
@@ -147,7 +147,7 @@ impl Block for BoucWenBlock {
     ) -> Option<(EventKind, usize)> {
         let (old, z) = (split(*standing.law).0, at.states[0]);
         let sense = heading(&at.inputs[0], self.reading.swings).unwrap_or(old);
-        // Near 0, z will have the sign of the motion. Both branches are equal there except for a power of z.
+        // Near 0, z will have the sign of the motion. There, both branches differ only by a power of z.
         let side = if z.abs() <= AROUND_ZERO * self.law.limit() { sense } else { z.signum() };
         let law = joined(sense, side);
         (law != *standing.law).then_some((EventKind::Own(TURNED), law))
@@ -169,14 +169,14 @@ impl Block for BoucWenBlock {
         self.reading.turns
     }
 
-    /// Returns the eigenvalue of z near its limit, n (A/z_m)|v̇|. The largest |v̇| is estimated from the span and the shortest time
+    /// Returns the eigenvalue of z near its limit, -n (A/z_m)|v̇|. The largest |v̇| is estimated from the span and the shortest time
     /// between reversals.
     fn eigenvalues(&self, _: &[Sample]) -> Vec<(f64, f64)> {
         let fastest = 0.25 * self.reading.span * self.reading.turns;
         vec![(-self.law.settling() * fastest, 0.0)]
     }
 
-    /// Returns 2: the reversal of the input and the zero crossing of z.
+    /// Returns 2, for the reversal of the input and the zero crossing of z.
     fn events_per_turn(&self) -> u32 {
         2
     }

@@ -4,8 +4,8 @@ use stickslip_drive::Sample;
 
 /// Name of the event at which an input reverses.
 pub(super) const TURNED: &str = "input turns";
-/// Time of extrapolation of the input's rate, in units of 1/rate.
-// At a reversal located to 1e-13 of a step the sign of the rate is determined by rounding.
+/// Time by which the rate of the input is extrapolated, in units of 1/rate.
+// At a reversal located to 1e-13 of a step, rounding would determine the sign of the rate itself.
 const AHEAD: f64 = 1e-9;
 
 /// Returns the direction of the input's motion, 1 or -1; `None` for an input at rest.

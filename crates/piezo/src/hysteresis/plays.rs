@@ -2,9 +2,9 @@
 
 /// Prandtl–Ishlinskii hysteresis y = w₀ v + Σ wᵢ pᵢ with play operators pᵢ of the input v.
 ///
-/// Each play satisfies |v - pᵢ| ≤ rᵢ, where rᵢ is its threshold. A play moves only when the input forces it to; the play is then
-/// engaged. Between two reversals the input engages one play after the other, in the order of their thresholds. The slope of y is
-/// w₀ + Σ wᵢ over the engaged plays.
+/// Each play satisfies |v - pᵢ| ≤ rᵢ, where rᵢ is its threshold. A play moves only when the input forces it to move; such a play is
+/// engaged. Between two reversals the input engages one play after the other, in the order of their thresholds. The slope of y is w₀ + Σ wᵢ
+/// over the engaged plays.
 ///
 /// Properties:
 ///
@@ -13,10 +13,10 @@
 /// * Congruency: minor loops of equal input range have equal shape.
 /// * Wiping-out: a closed minor loop is erased from the memory.
 ///
-/// Thresholds have the unit of the input. Weights have the unit of the output over that of the input.
+/// Thresholds have the unit of the input. Weights have the unit of the output divided by the unit of the input.
 ///
-/// Source: A. Visintin, *Differential Models of Hysteresis* (1994), chapter III; K. Kuhnen, European Journal of Control 9 (2003) 407,
-/// for piezo stacks and the inverse.
+/// Source: Visintin, *Differential Models of Hysteresis* (1994), chapter III; for piezo stacks and the inverse: Kuhnen, European Journal of
+/// Control 9 (2003) 407.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plays {
     /// Thresholds rᵢ, ascending and above 0.
@@ -24,7 +24,7 @@ pub struct Plays {
     weights: Vec<f64>,
     /// Slopes with the first i plays engaged: w₀ + w₁ + … + wᵢ.
     slopes: Vec<f64>,
-    /// Sums w₁r₁ + … + wᵢrᵢ.
+    /// Sums w₁r₁ + … + wᵢrᵢ over the first i plays.
     backs: Vec<f64>,
 }
 
@@ -39,7 +39,7 @@ pub enum PlaysError {
         /// Number of weights.
         weights: usize,
     },
-    /// The thresholds do not ascend from above 0.
+    /// The thresholds are not above 0 or not in ascending order.
     #[error("expected ascending thresholds above 0, got {value} at index {place}")]
     Threshold {
         /// Index of the threshold, from 0.
@@ -52,7 +52,7 @@ pub enum PlaysError {
     Slope {
         /// Number of engaged plays.
         taken_up: usize,
-        /// Slope w₀ + w₁ + …
+        /// Slope w₀ + w₁ + … with these plays engaged.
         slope: f64,
     },
     /// The width of the loop is not between 0 and half of the stroke.
@@ -74,8 +74,8 @@ impl Plays {
     ///
     /// # Errors
     ///
-    /// Fails if there are more than [`Plays::MOST`] thresholds or they do not ascend from above 0. Fails also if the slope is not
-    /// above 0 for some number of engaged plays, because the model would have no inverse.
+    /// Fails if there are more than [`Plays::MOST`] thresholds or they are not ascending and above 0. Also fails if the slope is not above
+    /// 0 for some number of engaged plays, because the model would have no inverse.
     pub fn new(direct: f64, thresholds: Vec<f64>, weights: Vec<f64>) -> Result<Self, PlaysError> {
         if thresholds.len() != weights.len() {
             return Err(PlaysError::Lengths { thresholds: thresholds.len(), weights: weights.len() });
@@ -101,10 +101,10 @@ impl Plays {
         }
     }
 
-    /// Creates the model from the width of its loop.
+    /// Creates the model from the width of its hysteresis loop.
     ///
-    /// `width` is the greatest width of the loop whose input range is the nominal `stroke` S, relative to S. The model keeps the
-    /// stroke: y changes by S if v changes by S.
+    /// `width` is the greatest width of the loop whose input range is the nominal `stroke` S, relative to S. The output of the model has
+    /// the same range: y changes by S if v changes by S.
     ///
     /// The `count` n plays have equal weights w and thresholds in the middles of n equal parts of (0, R), R = S/2. The width of a
     /// smaller loop is about proportional to the square of its amplitude (Rayleigh's law). A loop of input range X has the width
@@ -115,11 +115,11 @@ impl Plays {
     /// w = width/(a - 2b),  w₀ = 1 - w a;   n even: b = n/8, w = 4 width/n, w₀ = 1 - 2 width
     /// ```
     ///
-    /// Beyond the nominal stroke all plays are engaged, and the slope is w₀ + nw.
+    /// Beyond the nominal stroke all plays are engaged, and the slope of the output is w₀ + nw.
     ///
     /// # Errors
     ///
-    /// Fails if the width is not above 0 or not below about ½, where w₀ becomes 0. Fails also if the stroke or the count is out of range.
+    /// Fails if the width is not above 0 or not below about ½, where w₀ becomes 0. Also fails if the stroke or the count is out of range.
     pub fn of_loop(width: f64, stroke: f64, count: usize) -> Result<Self, PlaysError> {
         if !(1..=Self::MOST).contains(&count) {
             return Err(PlaysError::Count(count));
@@ -141,7 +141,7 @@ impl Plays {
 
     /// Returns the exact inverse, a model of the same kind with thresholds φ(rᵢ) and slopes 1/(w₀ + … + wᵢ).
     ///
-    /// Inverse and model in series return the input, if both start from the same state.
+    /// Inverse and model in series return the input, if both models start from the same state.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let thresholds: Vec<f64> = self.thresholds.iter().map(|r| self.initial(*r)).collect();
@@ -182,7 +182,7 @@ impl Plays {
 
     /// Returns the area of the loop with the input range `stroke` X: Σ 2wᵢrᵢ(X - 2rᵢ) over the plays with 2rᵢ < X.
     ///
-    /// The unit is that of the output times that of the input.
+    /// The unit of the area is the unit of the output times the unit of the input.
     pub fn area(&self, stroke: f64) -> f64 {
         let taken_up = self.thresholds.iter().zip(&self.weights).filter(|(r, _)| 2.0 * **r < stroke);
         taken_up.map(|(r, w)| 2.0 * w * r * (stroke - 2.0 * r)).sum()
@@ -205,7 +205,7 @@ impl Plays {
         places
     }
 
-    /// Moves the positions pᵢ after a monotone change of the input to v.
+    /// Moves the positions pᵢ of the plays after a monotone change of the input to v.
     pub fn drag(&self, places: &mut [f64], v: f64) {
         for (place, r) in places.iter_mut().zip(&self.thresholds) {
             *place = place.clamp(v - r, v + r);
@@ -220,7 +220,7 @@ impl Plays {
         self.thresholds.iter().zip(places).take_while(|(r, p)| sense * (v - *p) >= *r - slack).count()
     }
 
-    /// Returns the distance from v to the value that engages play `i` in direction `sense`; ∞ if there is no such play.
+    /// Returns the distance from v to the input that engages play `i` in direction `sense`; ∞ if the model has no play `i`.
     pub fn left(&self, places: &[f64], (v, sense): (f64, f64), i: usize) -> f64 {
         match (self.thresholds.get(i), places.get(i)) {
             (Some(r), Some(p)) => r - sense * (v - p),
@@ -228,7 +228,7 @@ impl Plays {
         }
     }
 
-    /// Returns output and slope at v, with the first `taken_up` plays engaged in direction `sense` and the others at rest.
+    /// Returns output and slope for an input v, with the first `taken_up` plays engaged in direction `sense` and all other plays at rest.
     pub fn output(&self, places: &[f64], (v, sense): (f64, f64), taken_up: usize) -> (f64, f64) {
         let slope = self.slopes[taken_up];
         let held: f64 = self.weights[taken_up..].iter().zip(&places[taken_up..]).map(|(w, p)| w * p).sum();
@@ -238,7 +238,7 @@ impl Plays {
     /// Returns the smallest and largest output for inputs within a range that contains 0.
     ///
     /// The end of the range with the larger magnitude is reached on the initial curve. The other end is reached on the initial curve or
-    /// from the first end by a change of 2φ(½(high - low)). For negative weights, as of an inverse, the latter may exceed the former.
+    /// from the first end by a change of 2φ(½(high - low)). This change may be the larger one if weights are negative, as of an inverse.
     pub fn range(&self, (low, high): (f64, f64)) -> (f64, f64) {
         let (down, up) = (-self.initial((-low).max(0.0)), self.initial(high.max(0.0)));
         let way = self.stroke(high - low);

@@ -16,7 +16,7 @@ pub(super) struct Arrangement {
 /// Distance between bodies connected by a spring, and between groups of bodies.
 pub(super) const LINK: f64 = 150.0;
 const APART: f64 = 150.0;
-/// Distance between a body and the one that it would overlap.
+/// Distance between a body and another body that it would otherwise overlap.
 const RIGHT: f64 = 60.0;
 
 /// Arranges the bodies. Touching bodies have common contact points. Bodies connected by a spring or stack are a fixed
@@ -50,7 +50,7 @@ pub(super) fn arrange(draft: &Draft<'_, '_>) -> Arrangement {
     finished(draft, references, groups)
 }
 
-/// Outlines and contact points of bodies at their positions.
+/// Returns the outlines and contact points of bodies at their positions.
 fn finished(draft: &Draft<'_, '_>, references: Vec<Point>, groups: Vec<usize>) -> Arrangement {
     let of = |place: usize| {
         let sides = draft.scene.contacts[place].between;
@@ -114,7 +114,7 @@ impl Plan<'_, '_, '_> {
         self.draft.outline(body, &own)
     }
 
-    /// Of two bodies of which one is placed: the placed and the new one, each with its side.
+    /// Returns the placed and the new body of a pair, each with its side. Returns `None` unless exactly one of the two bodies is placed.
     fn pair(&self, sides: [Option<usize>; 2]) -> Option<[(usize, usize); 2]> {
         let [a, b] = [sides[0]?, sides[1]?];
         match (self.places[a].is_some(), self.places[b].is_some()) {
@@ -124,7 +124,7 @@ impl Plan<'_, '_, '_> {
         }
     }
 
-    /// Next body that touches a placed one, and its position.
+    /// Returns the next body that touches a placed body, and its position.
     fn next_touching(&self) -> Option<(usize, Point)> {
         let scene = self.draft.scene;
         let sides = |place: usize| scene.contacts[place].between.map(|side| side.body);
@@ -151,7 +151,7 @@ impl Plan<'_, '_, '_> {
         Some((new, (x + way, z)))
     }
 
-    /// Next body linked to a placed one, and its position.
+    /// Returns the next body that is linked to a placed body, and its position.
     fn next_linked(&self) -> Option<(usize, Point)> {
         let (unit, scene) = (self.draft.unit, self.draft.scene);
         let (link, [(old, from), (new, to)]) = scene
@@ -178,14 +178,14 @@ impl Plan<'_, '_, '_> {
         Some((new, (x, z)))
     }
 
-    /// Outlines of the placed bodies except `but` that overlap a rectangle in height.
+    /// Returns the outlines of the placed bodies except `but` that overlap a rectangle in height.
     fn others(&self, at: Rect, but: Option<usize>) -> impl Iterator<Item = Rect> + '_ {
         let placed = self.places.iter().enumerate().filter(move |(body, _)| Some(*body) != but);
         let placed = placed.filter_map(|(body, place)| Some(self.outline(body).moved((*place)?)));
         placed.filter(move |other| other.bottom < at.top && other.top > at.bottom)
     }
 
-    /// Shift to the right that avoids overlap with bodies other than the one it touches.
+    /// Returns the shift to the right by which a body avoids overlap with placed bodies other than `but`, which it touches.
     fn way_out(&self, body: usize, at: Point, but: Option<usize>) -> f64 {
         let own = self.outline(body).moved(at);
         let in_the_way = |other: &Rect| other.left < own.right && other.right > own.left;
@@ -196,7 +196,7 @@ impl Plan<'_, '_, '_> {
         end + RIGHT * self.draft.unit - own.left
     }
 
-    /// Height of a body on the ground, if another body of its group is on the ground.
+    /// Returns the height of a body on the ground, if another body of its group is on the ground.
     fn level(&self, body: usize) -> Option<f64> {
         let on_ground = |(place, side): &(usize, usize)| {
             *side == 1 && self.draft.scene.contacts[*place].between[0].body.is_none()
@@ -211,7 +211,7 @@ impl Plan<'_, '_, '_> {
         Some(ground - own)
     }
 
-    /// Ground level of a group: its lowest contact with the ground, otherwise its lowest contact, otherwise its first body.
+    /// Returns the ground level of a group: its lowest contact with the ground, otherwise its lowest contact, otherwise its first body.
     fn floor(&self, members: &[usize]) -> f64 {
         let (mut ground, mut any) = (f64::MAX, f64::MAX);
         for &body in members {

@@ -38,7 +38,7 @@ pub(super) struct Attacher<'d, 's, 'a> {
 }
 
 impl Face {
-    /// Face in the positive or negative direction of the x or z axis.
+    /// Returns the face in the positive or negative direction of the x or z axis.
     fn of(is_upright: bool, is_end: bool) -> Self {
         match (is_upright, is_end) {
             (false, false) => Self::Left,
@@ -48,7 +48,7 @@ impl Face {
         }
     }
 
-    /// Point at a position along the face and a distance `off` it.
+    /// Returns the point at a position along the face and a distance `off` it.
     fn point(self, rect: Rect, along: f64, off: f64) -> Point {
         let (x, y) = (along.max(rect.left).min(rect.right), along.max(rect.bottom).min(rect.top));
         match self {
@@ -59,12 +59,12 @@ impl Face {
         }
     }
 
-    /// Coordinate of a point along the face.
+    /// Returns the coordinate of a point along the face.
     fn along(self, (x, y): Point) -> f64 {
         if matches!(self, Self::Left | Self::Right) { y } else { x }
     }
 
-    /// Whether the face is in the positive direction of its axis.
+    /// Returns whether the face is in the positive direction of its axis.
     fn is_end(self) -> bool {
         matches!(self, Self::Right | Self::Top)
     }
@@ -280,7 +280,7 @@ struct Push {
 }
 
 impl Push {
-    /// Constant forces have one arrowhead, forces that follow a waveform two.
+    /// Returns the arrow of a force. Constant forces have one arrowhead, forces that follow a waveform two.
     fn of(amount: Amount<'_>, is_push: bool) -> Self {
         match amount {
             Amount::Constant(_) => Self { is_push, is_double: false, style: FORCE },
@@ -289,7 +289,7 @@ impl Push {
     }
 }
 
-/// Text of a quantity: its magnitude, or the waveform it follows. An arrow shows the sign.
+/// Returns the text of a quantity: its magnitude, or the name of the waveform it follows. The arrow shows the sign.
 fn said(symbol: &str, amount: Amount<'_>, unit: &str) -> String {
     match amount {
         Amount::Constant(value) => quantity(value.abs(), unit, DIGITS),

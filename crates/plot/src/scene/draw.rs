@@ -10,7 +10,7 @@ use crate::scale::quantity;
 use crate::theme::Ink;
 use crate::thin::Point;
 
-/// Half length of the arrows of free translations, and radius of that of rotation.
+/// Half length of the arrows of free translations, and radius of the arrow of free rotation.
 const MOVES: f64 = 46.0;
 const TURNS: f64 = 42.0;
 /// Radius of the mark of a reference point.
@@ -44,7 +44,7 @@ pub(super) fn sheet(draft: &Draft<'_, '_>, plan: &Arrangement) -> Sheet {
     sheet
 }
 
-/// Line colour, area colour and legend entry for a mobility; `None` if fixed.
+/// Returns the line colour, area colour and legend entry for a mobility; `None` if fixed.
 fn inks(mobility: Mobility<'_>) -> Option<(Ink, Ink, &'static str)> {
     match mobility {
         Mobility::Fixed => None,
@@ -129,7 +129,7 @@ fn sheet_dot(sheet: &mut Sheet, at: Point) -> Rect {
     Rect::of(at)
 }
 
-/// Name and mass of a body, and the waveforms it follows.
+/// Returns the name and mass of a body, and the waveforms it follows.
 fn words(body: &SceneBody<'_>) -> Vec<String> {
     let mass = body.mass.map(|mass| quantity(1e3 * mass, "g", DIGITS));
     let follows = [("x", body.x), ("z", body.z), ("θ", body.pitch)].into_iter();
@@ -140,7 +140,7 @@ fn words(body: &SceneBody<'_>) -> Vec<String> {
     std::iter::once(body.name.to_owned()).chain(mass).chain(follows).collect()
 }
 
-/// Name and number of a contact, and its indentation or radius if constant.
+/// Returns the name and number of a contact, and its indentation or radius if constant.
 fn contact_words(contact: &SceneContact<'_>) -> Vec<String> {
     let name = match contact.count {
         1 => contact.name.to_owned(),

@@ -15,7 +15,7 @@ const WIDTH: f64 = 1400.0;
 const LEAST_HEIGHT: f64 = 360.0;
 /// Maximum width and height of the drawing; the rest is for names.
 const DRAWN: Point = (1100.0, 740.0);
-/// The same for an upright slide, along x and z, and the margin for names.
+/// Maximum extent along x and z of the drawing of an upright slide, and the margin for names.
 const DRAWN_UPRIGHT: Point = (860.0, 1100.0);
 const NAMES: f64 = 75.0;
 /// Height of title, legend and axis outside the frame.
@@ -23,13 +23,13 @@ const AROUND: f64 = 255.0;
 /// Maximum distance of a point from its body's reference point along x and z. Without such points, maximum radius of a profile.
 const REACH: Point = (420.0, 230.0);
 const PROFILE: f64 = 70.0;
-/// A drawing with a larger ratio of its sides is stretched to about the second ratio, at most by the third factor.
+/// Ratio of sides above which a drawing is stretched, approximate ratio after stretching, and maximum factor of stretching.
 const SLIVER: f64 = 12.0;
 const STOUT: f64 = 4.0;
 const MOST_STRETCH: f64 = 1e3;
 /// Maximum distance that is drawn, m.
 const FARTHEST: f64 = 1e9;
-/// Factor by which symbols shrink at a time, and their minimum size.
+/// Factor by which symbols shrink per step, and minimum size of symbols.
 const SHRINK: f64 = 0.85;
 const LEAST_UNIT: f64 = 0.01;
 /// Minimum scale relative to the largest; symbols shrink before the scale becomes smaller.
@@ -90,7 +90,7 @@ fn bounds(sheet: &Sheet) -> Rect {
     sheet.bounds().unwrap_or(Rect::of((0.0, 0.0)))
 }
 
-/// Largest distances of points from their reference points, m.
+/// Returns the largest distances of points from their reference points, m.
 fn reach(scene: &Scene<'_>) -> Point {
     let contacts = scene.contacts.iter().flat_map(|contact| contact.between);
     let links = scene.links.iter().flat_map(|link| link.between);
@@ -99,20 +99,20 @@ fn reach(scene: &Scene<'_>) -> Point {
     points.fold((0.0, 0.0), |(x, z): Point, at| (x.max(at.0.abs()), z.max(at.1.abs())))
 }
 
-/// Factors by which x and z are stretched.
+/// Returns the factors by which x and z are stretched.
 fn stretch((x, z): Point) -> Point {
     let factor =
         |ratio: f64| if ratio > SLIVER { round_down((ratio / STOUT).min(MOST_STRETCH)) } else { 1.0 };
     if x > 0.0 && z > 0.0 { (factor(z / x), factor(x / z)) } else { (1.0, 1.0) }
 }
 
-/// Largest number of the series 1, 2, 5, 10, 20, … that is not above a number.
+/// Returns the largest number of the series 1, 2, 5, 10, 20, … that is not above a number.
 fn round_down(number: f64) -> f64 {
     let decade = math::powf(10.0, math::log10(number).floor());
     [5.0, 2.0].into_iter().map(|digit| digit * decade).find(|round| *round <= number).unwrap_or(decade)
 }
 
-/// Largest scale, px per metre; `None` without lengths.
+/// Returns the largest scale, px per metre; `None` without lengths.
 fn most(scene: &Scene<'_>, reach: Point, stretch: Point) -> Option<f64> {
     let limit = |px: f64, length: f64| (length > 0.0).then(|| px / length);
     let points = [limit(REACH.0, reach.0 * stretch.0), limit(REACH.1, reach.1 * stretch.1)];

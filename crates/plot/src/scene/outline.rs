@@ -29,7 +29,7 @@ pub(super) struct Tip {
     pub(super) side: usize,
     /// Distances from the axis and heights.
     pub(super) half: Vec<Point>,
-    /// Whether it is the profile to scale, not a marker.
+    /// Whether the shape is the profile to scale instead of a marker.
     pub(super) is_true: bool,
 }
 
@@ -53,7 +53,7 @@ const PROFILE: (f64, f64, f64) = (7.0, 90.0, 4.0);
 const ROUND: f64 = 0.03;
 
 impl Rect {
-    /// Rectangle of zero size at a point.
+    /// Returns the rectangle of zero size at a point.
     pub(super) fn of((x, y): Point) -> Self {
         Self { left: x, right: x, bottom: y, top: y }
     }
@@ -91,7 +91,7 @@ impl Tip {
         self.half.last().map_or(0.0, |end| end.1)
     }
 
-    /// Part of the shape below a height.
+    /// Returns the part of the shape below a height.
     pub(super) fn below(&self, height: f64) -> Vec<Point> {
         let mut points = Vec::new();
         for &(r, h) in &self.half {
@@ -112,7 +112,7 @@ impl Draft<'_, '_> {
         (self.scale.0 * x, self.scale.1 * z)
     }
 
-    /// Contacts of a body: index of the contact and side of the body, 0 if the body is below.
+    /// Returns the contacts of a body: index of the contact and side of the body, 0 if the body is below.
     pub(super) fn contacts_of(&self, body: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let of = move |side: usize| move |fixture: &Fixture| (fixture.body == Some(body)).then_some(side);
         self.scene.contacts.iter().enumerate().flat_map(move |(place, contact)| {
@@ -121,7 +121,7 @@ impl Draft<'_, '_> {
         })
     }
 
-    /// Points of a body other than contacts, its reference point first.
+    /// Returns the points of a body other than contacts, its reference point first.
     pub(super) fn inner_points(&self, body: usize) -> impl Iterator<Item = Point> + '_ {
         let ends = self.scene.links.iter().flat_map(|link| link.between);
         let links = ends.filter(move |fixture| fixture.body == Some(body)).map(|fixture| fixture.at);
@@ -129,7 +129,7 @@ impl Draft<'_, '_> {
         std::iter::once((0.0, 0.0)).chain(links).chain(loads).map(|at| self.px(at))
     }
 
-    /// Whether a body has points away from its reference point along x and along z.
+    /// Returns whether a body has points away from its reference point along x and along z.
     pub(super) fn is_given(&self, body: usize) -> (bool, bool) {
         let contacts =
             self.contacts_of(body).map(|(place, side)| self.scene.contacts[place].between[side].at);
@@ -140,8 +140,8 @@ impl Draft<'_, '_> {
         given
     }
 
-    /// Shape of a contact: its profile if visible, otherwise a marker. It belongs to the side with a given point, or
-    /// to the body with fewer contacts.
+    /// Returns the shape of a contact: its profile if visible, otherwise a marker. The shape belongs to the side with a given point, or to
+    /// the body with fewer contacts.
     pub(super) fn tip(&self, contact: usize) -> Tip {
         let contact = &self.scene.contacts[contact];
         let rank = |fixture: &Fixture| match fixture.body {
@@ -160,7 +160,7 @@ impl Draft<'_, '_> {
         Tip { side, half, is_true: false }
     }
 
-    /// Radius in m of a ball: a body with one contact whose profile is curved around the reference point. `None` for other bodies.
+    /// Returns the radius in m of a ball, a body with one contact and a profile curved around the reference point; `None` for other bodies.
     pub(super) fn ball(&self, body: usize) -> Option<f64> {
         let mut contacts = self.contacts_of(body);
         let (Some((place, side)), None) = (contacts.next(), contacts.next()) else { return None };
@@ -174,18 +174,18 @@ impl Draft<'_, '_> {
         (x == 0.0 && others.at == (0.0, 0.0) && is_round && holds_all).then_some(radius)
     }
 
-    /// Height of a foot, from its contact to the face of the body.
+    /// Returns the height of a foot, from its contact to the face of the body.
     fn foot(&self, tip: &Tip) -> f64 {
         tip.height().max(LEG * self.unit)
     }
 
-    /// Half width of a body without points along the slide.
+    /// Returns the half width of a body without points along the slide.
     fn half_width(&self) -> f64 {
         self.unit * if self.scene.bodies.len() > FEW { NARROW } else { HALF_WIDTH }
     }
 
-    /// Contact point relative to the body's reference point. Without given points, contacts are placed side by side
-    /// on the upper or lower face.
+    /// Returns the contact point relative to the body's reference point. Without given points, contacts are placed side by side on the
+    /// upper or lower face.
     pub(super) fn contact_point(&self, body: usize, place: usize, side: usize) -> Point {
         let (given_x, given_z) = self.is_given(body);
         let (x, z) = self.px(self.scene.contacts[place].between[side].at);
@@ -209,7 +209,7 @@ impl Draft<'_, '_> {
         (at - (slots.len().max(1) - 1) as f64 / 2.0) * step
     }
 
-    /// Outline of a body around its reference point with its contacts on its faces. It is symmetric about the
+    /// Returns the outline of a body around its reference point with its contacts on its faces. The outline is symmetric about the
     /// reference point as far as the contacts allow.
     pub(super) fn outline(&self, body: usize, contacts: &[(usize, usize, Point)]) -> Rect {
         if let Some(radius) = self.ball(body) {

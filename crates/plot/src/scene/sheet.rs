@@ -22,7 +22,7 @@ pub(super) const FORCE: Style = line(Ink::Palette(2), 0.9);
 pub(super) const FOLLOWS: Style = line(Ink::Palette(1), 0.9);
 pub(super) const TIE: Style = Style { ink: Some(Ink::Muted), dash: Some(Dash::Dashed), width: 0.45 };
 
-/// Solid line style.
+/// Returns the solid line style.
 pub(super) const fn line(ink: Ink, width: f64) -> Style {
     Style { ink: Some(ink), dash: Some(Dash::Solid), width }
 }
@@ -47,7 +47,7 @@ impl Sheet {
         }
     }
 
-    /// Bounding box of shapes and lines.
+    /// Returns the bounding box of shapes and lines.
     pub(super) fn bounds(&self) -> Option<Rect> {
         let lines = self.lines.iter().flat_map(|(line, _)| line);
         let points = self.shapes.iter().flat_map(|(_, corners, _)| corners).chain(lines);
@@ -93,7 +93,7 @@ impl Sheet {
     }
 }
 
-/// Bounding box of lines.
+/// Returns the bounding box of lines.
 pub(super) fn around(lines: &Lines) -> Rect {
     let points = lines.iter().flatten().map(|&point| Rect::of(point));
     points.reduce(Rect::union).unwrap_or(Rect::of((0.0, 0.0)))

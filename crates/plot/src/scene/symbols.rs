@@ -5,7 +5,7 @@ use crate::thin::Point;
 /// Polylines of a symbol.
 pub(crate) type Lines = Vec<Vec<Point>>;
 
-/// Local coordinate system along a line: along it, and across it to the left.
+/// Local coordinates of a line: along the line, and across it to the left.
 struct Way {
     from: Point,
     ahead: Point,
@@ -44,7 +44,7 @@ const HEAD: Point = (15.0, 7.5);
 const WALL: f64 = 42.0;
 pub(super) const HATCH: f64 = 15.0;
 
-/// Spring, damper, or both in parallel.
+/// Returns the symbol of a spring, a damper, or both in parallel.
 pub(super) fn spring(from: Point, to: Point, (is_stiff, is_damped): (bool, bool), unit: f64) -> Lines {
     let way = Way::new(from, to);
     let (start, end) = (LEAD * way.length, (1.0 - LEAD) * way.length);
@@ -74,7 +74,7 @@ pub(super) fn spring(from: Point, to: Point, (is_stiff, is_damped): (bool, bool)
     lines
 }
 
-/// Dashpot: a cup with a piston.
+/// Returns the symbol of a dashpot: a cup with a piston.
 fn damper(way: &Way, (start, end): Point, aside: f64, half: f64) -> Lines {
     let along = |share: f64| start + share * (end - start);
     let (back, rim, piston) = (along(0.3), along(0.8), along(0.55));
@@ -87,7 +87,7 @@ fn damper(way: &Way, (start, end): Point, aside: f64, half: f64) -> Lines {
     ]
 }
 
-/// Piezo stack.
+/// Returns the symbol of a piezo stack.
 pub(super) fn stack(from: Point, to: Point, unit: f64) -> Lines {
     let way = Way::new(from, to);
     let (start, end) = (LEAD * way.length, (1.0 - LEAD) * way.length);
@@ -105,7 +105,7 @@ pub(super) fn stack(from: Point, to: Point, unit: f64) -> Lines {
     lines
 }
 
-/// Arrow next to a piezo stack that follows a waveform.
+/// Returns an arrow next to a piezo stack that follows a waveform.
 pub(super) fn stroke(from: Point, to: Point, unit: f64) -> Lines {
     let way = Way::new(from, to);
     let beside = -(STACK + HEAD.0) * unit;
@@ -113,7 +113,7 @@ pub(super) fn stroke(from: Point, to: Point, unit: f64) -> Lines {
     arrow(ends[0], ends[1], true, unit)
 }
 
-/// Arrow with one arrowhead or, if `is_double`, two.
+/// Returns an arrow with one arrowhead or, if `is_double`, with two.
 pub(crate) fn arrow(from: Point, to: Point, is_double: bool, unit: f64) -> Lines {
     let mut lines = vec![vec![from, to], head(from, to, unit)];
     if is_double {
@@ -128,7 +128,7 @@ fn head(from: Point, to: Point, unit: f64) -> Vec<Point> {
     way.line(&[(back, half), (way.length, 0.0), (back, -half)])
 }
 
-/// Arrow along an arc between two angles, rad, counter-clockwise from the x axis.
+/// Returns an arrow along an arc between two angles, rad, counter-clockwise from the x axis.
 pub(super) fn turn(centre: Point, radius: f64, (from, to): (f64, f64), is_double: bool, unit: f64) -> Lines {
     let on = |angle: f64| (centre.0 + radius * math::cos(angle), centre.1 + radius * math::sin(angle));
     let arc = (0..=32).map(|k| on(from + (to - from) * f64::from(k) / 32.0));
@@ -141,13 +141,13 @@ pub(super) fn turn(centre: Point, radius: f64, (from, to): (f64, f64), is_double
     lines
 }
 
-/// Wall at the end of a line from a point.
+/// Returns a wall at the end of a line from a point.
 pub(super) fn wall(from: Point, at: Point, unit: f64) -> Lines {
     let way = Way::new(from, at);
     hatched(way.at((way.length, WALL * unit)), way.at((way.length, -WALL * unit)), unit)
 }
 
-/// Hatched line of a fixed surface, with hatches on its left.
+/// Returns a line of a fixed surface, with hatches on its left.
 pub(crate) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
     let way = Way::new(from, to);
     let step = HATCH * unit;
@@ -160,7 +160,7 @@ pub(crate) fn hatched(from: Point, to: Point, unit: f64) -> Lines {
     lines
 }
 
-/// Ellipse with 96 corners.
+/// Returns an ellipse as a polygon with 96 corners.
 pub(super) fn ellipse((x, y): Point, (wide, high): Point) -> Vec<Point> {
     let corner = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / 96.0;

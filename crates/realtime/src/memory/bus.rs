@@ -1,35 +1,35 @@
-//! Handling of SIGBUS for mappings whose file another process may truncate.
+//! Handling of the signal SIGBUS for memory mappings whose file another process may truncate.
 //!
-//! An access to a missing page causes SIGBUS, which ends the process unless it is handled. This handler replaces the lost mapping by zeros,
-//! and the instruction is repeated. Checking the file length before each access would leave a race condition. File reads and writes in
-//! place of the mapping have no compare-exchange, which clients and loop need.
+//! An access to a missing page causes SIGBUS, which ends the process unless it is handled. This handler replaces the mapping by zeros, and
+//! the access is repeated. Checking the file length before each access would leave a race condition. File reads and writes instead of a
+//! mapping would have no compare-exchange, which clients and loop need.
 
 use rustix::mm::{MapFlags, ProtFlags, mmap_anonymous};
 use std::io;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Maximum number of mappings of a process. A loop has one.
+/// Maximum number of mappings of a process. A loop needs one mapping.
 const MOST: usize = 32;
 
-/// Address ranges of the mappings. They are atomics, because a signal handler must not take a lock.
+/// Address ranges of the mappings. Atomics are used, because a signal handler must not take a lock.
 static PLACES: [Place; MOST] =
     [const { Place { start: AtomicUsize::new(0), end: AtomicUsize::new(0) } }; MOST];
 
-/// Previous handler of the signal. `None` if the signal cannot be handled.
+/// Previous handler of SIGBUS. `None` if no handler can be installed.
 static FORMER: OnceLock<Option<libc::sigaction>> = OnceLock::new();
 
-/// Address range of a mapping. It is unused if its start is 0.
+/// Address range of a mapping. A start of 0 marks an unused entry.
 struct Place {
     start: AtomicUsize,
     end: AtomicUsize,
 }
 
-/// Protects a mapping from SIGBUS. It must be dropped before the mapping.
+/// Guard that protects a mapping from SIGBUS. The guard must be dropped before the mapping.
 pub(super) struct Guard(&'static Place);
 
 impl Guard {
-    /// Protects the mapping with this start address and size.
+    /// Registers the mapping with this start address and size for the signal handler.
     pub(super) fn over(start: usize, bytes: usize) -> io::Result<Self> {
         if FORMER.get_or_init(take_signal).is_none() {
             return Err(io::Error::other("SIGBUS cannot be handled"));
@@ -50,7 +50,7 @@ impl Drop for Guard {
     }
 }
 
-/// Installs the signal handler and returns the previous one.
+/// Installs the signal handler and returns the previous handler.
 fn take_signal() -> Option<libc::sigaction> {
     #[allow(unsafe_code, reason = "rustix has no sigaction")]
     // SAFETY: both actions are plain data on this stack, for which zero is a valid value. The handler has the signature that SA_SIGINFO

@@ -16,14 +16,14 @@ pub struct Input {
     pub initial: f64,
     /// Allowed values.
     pub takes: Takes,
-    /// Use of the value in the run.
+    /// Effect of the value on the run.
     pub(crate) feed: Feed,
 }
 
 /// Allowed values of an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Takes {
-    /// From the smallest to the largest value.
+    /// Values from the smallest to the largest value.
     Range(f64, f64),
     /// +1 or −1.
     Sign,
@@ -31,11 +31,11 @@ pub enum Takes {
     Count,
 }
 
-/// Largest count. All integers up to it are exact in double precision.
+/// Largest count, 2⁵³: all integers up to this value are exact in double precision.
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
 impl Takes {
-    /// Returns whether a value is allowed. NaN never is.
+    /// Returns whether a value is allowed. NaN is never allowed.
     #[inline]
     pub fn has(self, value: f64) -> bool {
         match self {
@@ -56,21 +56,21 @@ impl fmt::Display for Takes {
     }
 }
 
-/// Use of an input value in the run. The indices are those of the waveforms in the model.
+/// Effect of an input value on the run, with the index of the waveform in the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Feed {
-    /// Applies from the start of the frame.
+    /// The waveform has the value from the start of the frame on.
     Hold(usize),
-    /// Is reached at the end of the frame, by linear interpolation.
+    /// The waveform reaches the value at the end of the frame, by linear interpolation.
     Lead(usize),
-    /// Is a part of the command for the cycles of a generator that start later.
+    /// The value is a part of the command for the cycles of a generator that start later.
     Command(usize, Part),
-    /// Is recorded only.
+    /// The value is recorded but has no effect.
     Note,
 }
 
 impl Input {
-    /// Creates an input that has no effect, such as the setpoint of a controller. It is recorded and drawn with the others.
+    /// Creates an input that has no effect, such as the setpoint of a controller. The input is recorded and drawn like other inputs.
     pub fn note(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -80,7 +80,7 @@ impl Input {
         }
     }
 
-    /// Returns whether the value is reached at the end of a frame by linear interpolation. Other values apply from its start.
+    /// Returns whether the value is reached at the end of a frame by linear interpolation. Other values apply from the start of the frame.
     pub fn is_led(&self) -> bool {
         matches!(self.feed, Feed::Lead(_))
     }
@@ -95,7 +95,7 @@ pub struct Output {
     pub(crate) reading: Reading,
 }
 
-/// Source of an output value. Bodies are read directly, because a row of all channels evaluates every contact.
+/// Source of an output value. Motions of bodies are read directly, because computing a row of all channels evaluates every contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Reading {
     /// Simulated time.
@@ -132,7 +132,7 @@ pub enum ChannelError {
     TooMany(usize, &'static str),
 }
 
-/// Returns all inputs of a model: one value per input waveform, four per generator. Values that nothing follows have no effect.
+/// Returns all inputs of a model: one value per input waveform, four per generator. Waveforms without followers have no effect.
 ///
 /// # Errors
 /// There are more values than a packet can hold.
@@ -170,9 +170,9 @@ fn commands(name: &str, place: usize, generator: &Generator) -> impl Iterator<It
     })
 }
 
-/// Returns the outputs with the given names. By default they are the time and the positions and velocities of the bodies.
+/// Returns the outputs with the given names, or by default the time and the positions and velocities of the bodies.
 ///
-/// Forces are not included by default. They require an evaluation of the contacts, which may take longer than a frame.
+/// Forces are not included by default, because they require an evaluation of the contacts, which may take longer than a frame.
 ///
 /// # Errors
 /// A name is unknown or occurs twice, or there are more values than a packet can hold.

@@ -17,7 +17,7 @@ pub(crate) enum Part {
 }
 
 impl Part {
-    /// All values in the order of a packet.
+    /// All values of a command, in the order of the input packet.
     pub(crate) const ALL: [Self; 4] = [Self::Stroke, Self::Frequency, Self::Heading, Self::Steps];
 
     /// Returns the suffix of the input name after the name of the generator.
@@ -41,8 +41,8 @@ pub(crate) fn values(command: &Command) -> [f64; Part::ALL.len()] {
 
 /// A generator with its last command.
 ///
-/// A controller sends all four values in every frame. A new command is given only if a value has changed. The number of cycles counts from
-/// the frame in which it changes, because otherwise it would never be used up.
+/// A controller sends all four values in every frame. The generator gets a new command only if a value has changed. The number of cycles
+/// therefore counts from the frame of its last change. If it were renewed in every frame, it would never be used up.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Commanded {
     /// Index of the waveform in the model.
@@ -54,28 +54,28 @@ pub(crate) struct Commanded {
 }
 
 impl Commanded {
-    /// Creates a generator with an unknown last command. `place` is the waveform index in the model.
+    /// Creates a generator whose last command is unknown. `place` is the index of its waveform in the model.
     pub(crate) fn new(place: usize) -> Self {
         Self { place, told: [f64::NAN; Part::ALL.len()], tells: [f64::NAN; Part::ALL.len()] }
     }
 
-    /// Returns whether the generator has the waveform with this index.
+    /// Returns whether `place` is the index of the waveform of this generator.
     pub(crate) fn is_at(&self, place: usize) -> bool {
         self.place == place
     }
 
-    /// Sets one received value.
+    /// Sets one received value of the command.
     #[inline]
     pub(crate) fn hear(&mut self, part: Part, value: f64) {
         self.tells[part as usize] = value;
     }
 
-    /// Stores the received values as the last command without giving it.
+    /// Stores the received values as the last command without giving this command to the run.
     pub(crate) fn know(&mut self) {
         self.told = self.tells;
     }
 
-    /// Gives the received command to the run if it differs from the last one.
+    /// Gives the received command to the run if it differs from the last command.
     ///
     /// # Errors
     /// The run rejects the command.

@@ -6,7 +6,7 @@ use super::{Input, Output, Plant, PlantError, Work, between, done};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
 use stickslip_drive::{Unrecorded, Watcher};
 
-/// A drive: a run that is advanced from one multiple of the frame length to the next.
+/// A simulated drive: a run that is advanced from one multiple of the frame length to the next.
 pub struct Drive<'m> {
     run: Run<'m>,
     /// Length of a frame, s.
@@ -16,17 +16,17 @@ pub struct Drive<'m> {
     feeds: Vec<Feed>,
     generators: Vec<Commanded>,
     readings: Vec<Reading>,
-    /// Row of all channels. It is filled only if an output needs it.
+    /// Row of all channels. The row is computed only if an output needs it.
     row: Vec<f64>,
     model: &'m Model,
-    /// Watcher that may end the run within a frame.
+    /// Watcher that can end the run within a frame.
     observer: &'m (dyn Watcher + Sync),
 }
 
 impl<'m> Drive<'m> {
-    /// Creates a drive at the start of frame `frame`, where its state must be.
+    /// Creates a drive at the start of frame `frame`. The time of its state must be the start of this frame.
     ///
-    /// Frame k extends from k·T to (k+1)·T; times are multiplied, not summed. Only the integrator of the plan is used.
+    /// Frame k extends from k·T to (k+1)·T, times computed by multiplication, not by summation. Only the integrator of the plan is used.
     ///
     /// # Errors
     /// The integrator cannot run in frames, or its fixed time step is too long for the model.
@@ -39,7 +39,7 @@ impl<'m> Drive<'m> {
     ) -> Result<Self, RunError> {
         let plan = Self::plan(plan);
         let run = if frame == 0 { Run::new(model, &plan, state)? } else { Run::resume(model, &plan, state)? };
-        // An input that nothing follows has no effect on the model.
+        // An input that no part of the model follows has no effect.
         let is_spared = |place: &usize| model.spared().waveforms.contains(place);
         let feed = |input: &Input| match input.feed {
             Feed::Hold(place) | Feed::Lead(place) | Feed::Command(place, _) if is_spared(&place) => {
@@ -72,16 +72,16 @@ impl<'m> Drive<'m> {
         Ok(drive.after(&initial))
     }
 
-    /// Returns the drive with a watcher that may end a long frame.
+    /// Returns the drive with a watcher that can end a long frame.
     #[must_use]
     pub fn heeding(self, observer: &'m (dyn Watcher + Sync)) -> Self {
         Self { observer, ..self }
     }
 
-    /// Returns the drive after a frame with these inputs, so that unchanged commands are not given again.
+    /// Returns the drive after a frame with these inputs: equal commands in the next frame are then not given again.
     ///
-    /// Before the first frame, the inputs are the initial values. A resumed drive needs this call, because its state contains the remaining
-    /// cycles but not the commanded number.
+    /// A new drive has the initial values as last inputs. A resumed drive needs this call, because its state contains the number of
+    /// remaining cycles but not the commanded number.
     #[must_use]
     pub fn after(mut self, inputs: &[f64]) -> Self {
         self.hear(inputs);

@@ -5,9 +5,9 @@ use crate::plant::WORK;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Returns a table of the non-empty histogram bins of 1 µs: execution time and latency of the loop and of the empty loop.
+/// Returns a table of the non-empty histogram bins of 1 µs, for execution time and latency of the loop and of an empty loop.
 ///
-/// The last row, from 20 ms on, contains all longer durations.
+/// The last row contains all durations of 20 ms or more.
 pub fn histogram_csv(timing: &Timing, floor: &Timing) -> String {
     let all = [&timing.execution, &timing.latency, &floor.execution, &floor.latency];
     let mut bins: BTreeMap<u64, [u64; 4]> = BTreeMap::new();
@@ -28,7 +28,7 @@ pub fn histogram_csv(timing: &Timing, floor: &Timing) -> String {
     text
 }
 
-/// Returns a table of the worst frames by execution time and by latency, with their work.
+/// Returns a table of the frames with the longest execution times and the longest latencies, with their work.
 pub fn frames_csv(timing: &Timing, period: f64) -> String {
     let mut text = format!("worst_by,frame,time_s,latency_us,execution_us,{}\n", WORK.join(","));
     for (by, worst) in [("execution", &timing.slowest), ("latency", &timing.latest)] {

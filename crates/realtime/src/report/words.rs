@@ -4,7 +4,7 @@ use super::{Report, Times};
 use crate::plant::WORK;
 use crate::worst::Slow;
 
-/// Note on the limits of the timing guarantees.
+/// Note that the measured timing is not guaranteed.
 pub const PROMISE: &str = "measured in this run, not guaranteed: without a real-time kernel (PREEMPT_RT), a \
 reserved processor and locked memory, the operating system may delay the loop by milliseconds at any time";
 
@@ -95,7 +95,7 @@ fn springs(report: &Report) -> Option<String> {
     Some(format!("  with rows of springs, 99 % of the frames took at most: {}; {fits}", measured.join(", ")))
 }
 
-/// Returns a line about the deadlines: kept or not.
+/// Returns a line that reports whether all deadlines were met.
 fn verdict(report: &Report) -> String {
     let share = 1e-4 * report.execution.p99_99_us / report.period_s;
     let Report { overruns, frames, deadlines_skipped, longest_skip, .. } = report;

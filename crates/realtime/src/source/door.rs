@@ -1,24 +1,24 @@
-//! UDP socket that receives from all addresses until a client owns the inputs, and then from this client only.
+//! UDP socket for the inputs. The socket receives from all addresses until a client owns the inputs, and then only from this client.
 
 use crate::intake::{Client, Intake};
 use crate::wire::{self, MOST_VALUES};
 use std::io;
 use std::net::{SocketAddr, UdpSocket};
 
-/// Maximum number of packets that are read in a frame, which limits the cost of a flood of packets.
+/// Maximum number of packets that are read in a frame. The limit bounds the time that a flood of packets costs.
 const MOST_PACKETS: usize = 32;
 
 /// UDP socket of the inputs.
 ///
-/// While a client owns the inputs, the system drops the packets of others. Otherwise a flood could fill the receive buffer. This works on
-/// Linux; on other systems all packets are read and validated.
+/// While a client owns the inputs, Linux drops the packets of other clients, so that a flood cannot fill the receive buffer. On other
+/// systems all packets are read and validated.
 pub struct Door {
     socket: UdpSocket,
-    /// Address of the only client that is received.
+    /// Address of the only client whose packets are received. `None` receives all packets.
     guest: Option<SocketAddr>,
-    /// Whether a packet of this client has arrived since.
+    /// Whether a packet of this client has arrived since the socket was restricted to it.
     heard: bool,
-    /// Address of a client that could not be received exclusively.
+    /// Address of a client whose packets were lost when the socket was restricted to it.
     unheard: Option<SocketAddr>,
 }
 
@@ -40,7 +40,7 @@ impl Door {
                     intake.offer(Client::Address(address), &bytes[..length]);
                 }
                 Err(error) if error.kind() == io::ErrorKind::WouldBlock => break,
-                // Such an error may report an output that no receiver accepted. The next packet may be valid.
+                // Such an error may concern an output that no receiver accepted. The next input packet may be valid.
                 Err(_) => {}
             }
         }
@@ -56,12 +56,12 @@ impl Door {
         if owner == self.guest || (owner.is_some() && owner == self.unheard) {
             return;
         }
-        // A socket bound to all addresses of a machine is assigned one of them when it is connected. Packets of a client to another of
-        // these addresses are then lost.
+        // A socket bound to all addresses of a machine gets one of these addresses when it is connected. Packets of a client to other
+        // addresses are then lost.
         if owner.is_none() && !self.heard {
             self.unheard = self.guest;
         }
-        // If the system refuses, all packets are received and validated.
+        // If the connection fails, all packets are received and validated.
         if connect(&self.socket, owner).is_ok() {
             (self.guest, self.heard) = (owner, false);
         }

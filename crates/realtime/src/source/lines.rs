@@ -12,11 +12,11 @@ use std::thread;
 /// Maximum length of a line with its end, bytes: 150 numbers of 25 characters.
 const LONGEST: u64 = 4096;
 
-/// Source that uses the latest line received.
+/// Source of inputs that uses the latest line received.
 pub struct Lines {
     mailbox: Arc<Mailbox>,
     seen: u64,
-    /// Number of the last line used.
+    /// Sequence number of the last line that was used.
     last: u64,
     record: Vec<u64>,
     odd: u64,
@@ -27,7 +27,7 @@ struct Mailbox {
     words: Vec<AtomicU64>,
     /// Number of lines that are not valid lists of values.
     odd: AtomicU64,
-    /// Number of lines with a value out of range. They do not replace a valid line that is not yet used.
+    /// Number of lines with a value out of range. Such a line does not replace a valid line that has not been used yet.
     refused: AtomicU64,
 }
 
@@ -55,7 +55,7 @@ impl Lines {
                 }
                 sequence += 1;
                 let stamp = Stamp { sequence, time: 0.0 };
-                // Only this thread writes, so that the write succeeds.
+                // Only this thread writes to the record, so that the write succeeds.
                 let _ = seqlock::write(&filled.words, wire::words(scenario, stamp, &found));
             }
         });
@@ -83,7 +83,7 @@ impl Lines {
     }
 }
 
-/// Reads a line. A line that is too long is returned as an empty one, and its rest is skipped. Returns `false` at the end of the input.
+/// Reads a line. A line that is too long is returned as an empty line, and its rest is skipped. Returns `false` at the end of the input.
 fn next(from: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
     line.clear();
     let read = Read::take(&mut *from, LONGEST).read_until(b'\n', line)?;
@@ -94,7 +94,7 @@ fn next(from: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<bool> {
     Ok(read > 0)
 }
 
-/// Returns the numbers of a line, separated by blanks or commas. Returns `None` if their number is not `values`.
+/// Returns the numbers of a line, separated by blanks or commas. Returns `None` if the line does not contain exactly `values` numbers.
 fn numbers(line: &str, values: usize) -> Option<Vec<f64>> {
     let parts = line.split([' ', '\t', ',', '\r', '\n']).filter(|part| !part.is_empty());
     let numbers = parts.map(|part| part.parse().ok()).collect::<Option<Vec<f64>>>()?;

@@ -42,7 +42,7 @@ pub enum RecordingError {
     /// The file is not a recording.
     #[error("{}: not a recording of inputs", .0.display())]
     Foreign(PathBuf),
-    /// The recording is of another scenario.
+    /// The recording belongs to another scenario.
     #[error("{}: a recording of another scenario", .0.display())]
     OtherScenario(PathBuf),
     /// The number of inputs differs from that of the scenario.
@@ -55,7 +55,7 @@ pub enum RecordingError {
         /// Number of inputs of the scenario.
         expected: usize,
     },
-    /// The frame length differs.
+    /// The frame length of the recording differs from that of the loop.
     #[error("{}: recorded with frames of {got:e} s, expected {expected:e} s", path.display())]
     Period {
         /// Path of the file.

@@ -9,11 +9,11 @@ use stickslip_contact::{Memory, Segment};
 use stickslip_drive::{Event, Extent, Record, Run, RunError};
 
 impl Job {
-    /// Runs like [`Self::run_recorded`] and writes checkpoints. The recorder is new, or has received the journal of the earlier part.
+    /// Runs the job and writes checkpoints. The recorder is new, or has received the journal of the interrupted run.
     ///
-    /// A complete run stores its last state before time steps are shortened for the end. From this state it can be continued to a later
-    /// end. A run that is halted by an interrupt or a limit stores its current state. After an error, the previous checkpoint remains. If a
-    /// checkpoint cannot be written, the run ends; its results so far are written.
+    /// The last checkpoint of a complete run precedes the time steps that are shortened to reach the end. From there, the run can be
+    /// resumed to a later end. A run that is halted by an interrupt or a limit stores its current state. An error keeps the previous
+    /// checkpoint. If a checkpoint cannot be written, the run ends, and its results so far are written.
     ///
     /// # Errors
     /// A table cannot be written.
@@ -53,7 +53,7 @@ impl Journalled<'_> {
                 self.recorder.fail(failure);
                 break ended;
             }
-            // A pause is not an end.
+            // After a pause for a checkpoint the run continues.
             if ended.is_ok() || !std::mem::take(&mut self.pauses) {
                 break ended;
             }

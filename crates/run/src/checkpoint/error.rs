@@ -38,15 +38,15 @@ pub enum CheckpointError {
     Newer {
         /// Path of the file.
         path: PathBuf,
-        /// Program that wrote it.
+        /// Program that wrote the file.
         program: String,
     },
-    /// Another program version wrote the checkpoint. Its time steps may differ in rounding.
+    /// Another program version wrote the checkpoint. Time steps of different versions may differ in rounding.
     #[error("{}: written by {program}, this is {}: the results could differ\n   help: resume with that program, or run the scenario again", .path.display(), this_program())]
     OtherProgram {
         /// Path of the file.
         path: PathBuf,
-        /// Program that wrote it.
+        /// Program that wrote the file.
         program: String,
     },
     /// The checkpoint is truncated.
@@ -76,7 +76,7 @@ pub enum CheckpointError {
     /// The scenario is invalid.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// The scenario is not the one of the run.
+    /// The scenario differs from that of the interrupted run in more than its end.
     #[error("{}: is not the scenario of the checkpoint: more than its end has changed", .0.display())]
     OtherScenario(PathBuf),
     /// A setting other than the end of the run was changed.
@@ -84,7 +84,7 @@ pub enum CheckpointError {
         "--set {0}  a resumed run can only change its end, by {1}, and run.limits\n   help: run the scenario again to change other keys"
     )]
     NotTheEnd(String, &'static str),
-    /// The end was given by the other one of two keys.
+    /// The scenario gives the end of the run by `run.duration` and the change by `run.cycles`, or vice versa.
     #[error("--set {0}  the end of this run is given by {1}\n   help: --set {1}=…")]
     OtherEnd(String, &'static str),
     /// The run has already passed the new end.

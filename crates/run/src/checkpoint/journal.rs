@@ -1,6 +1,6 @@
 //! Journal of a run: all calls to its recorder, in order, in binary form.
 //!
-//! All results follow from these calls. A new recorder that receives them again has the same tables, results and fingerprints. Numbers are
+//! The calls determine all results: a new recorder that receives the same calls has the same tables, results and fingerprints. Numbers are
 //! little-endian.
 //!
 //! | record | bytes |
@@ -29,12 +29,12 @@ pub(super) mod tag {
     pub(in super::super) const PATH: u8 = 5;
 }
 
-/// Length of a journal with the digest of its contents.
+/// Length of a journal and digest of its contents up to this length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Mark {
     /// Length, bytes.
     pub(super) length: u64,
-    /// SHA-256 of these bytes.
+    /// SHA-256 of the journal up to this length.
     pub(super) digest: [u8; 32],
 }
 
@@ -60,7 +60,7 @@ impl Journal {
         Ok(Self::on(File::create(path)?, 0, Sha256::new()))
     }
 
-    /// Continues a journal at a length, with the digest of its contents up to there. The rest of the file is truncated.
+    /// Opens an existing journal, truncates it to `length` bytes and appends to it. `digest` is that of the remaining contents.
     pub(super) fn go_on(path: &Path, length: u64, digest: Sha256) -> io::Result<Self> {
         let mut file = OpenOptions::new().write(true).open(path)?;
         file.set_len(length)?;
@@ -155,7 +155,7 @@ impl Journal {
         self.bytes.extend(values.iter().flat_map(|value| value.to_le_bytes()));
     }
 
-    /// Writes the assembled record. After an error nothing more is written, so that the journal has no gaps.
+    /// Writes the assembled record. After a write error, later records are discarded, so that the journal has no gaps.
     fn put(&mut self) {
         if self.failure.is_none() {
             self.failure = self.writer.write_all(&self.bytes).err();

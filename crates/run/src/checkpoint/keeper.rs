@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use stickslip_drive::{State, Stepper};
 use stickslip_scenario::ScenarioError;
 
-/// Writes the checkpoints of one run: its journal, and its state at intervals.
+/// Writes the checkpoints of one run: the journal continuously and the state at intervals.
 pub struct Keeper {
     place: PathBuf,
     stub: Stub,
@@ -24,7 +24,7 @@ pub struct Keeper {
     pub(super) from: State,
     /// Whether the recorder has already received data of the run.
     pub(super) is_begun: bool,
-    /// Start of this part of the run, and wall time of the previous parts, s.
+    /// Start of this part of the run, and total wall time of its earlier parts, s.
     begun: Instant,
     before: f64,
     saved: Instant,
@@ -43,7 +43,7 @@ impl Keeper {
 
     /// Starts the checkpoints of a run with another initial state, such as a periodic orbit.
     ///
-    /// A [`Resumption`](super::Resumption) from its first checkpoint starts the run from this state.
+    /// A [`Resumption`](super::Resumption) from the first checkpoint starts the run from this state, too.
     ///
     /// # Errors
     /// The checkpoint cannot be written.
@@ -72,7 +72,7 @@ impl Keeper {
     pub(super) fn go_on(job: &Job, stub: Stub, journal: Journal, from: (State, bool)) -> io::Result<Self> {
         let place = place(&job.folder);
         sweep(&place, &[STATE, SCENARIO]);
-        // After a crash either of the two scenario files may exist. The run can be resumed with both.
+        // After a crash the scenario file may have the old or the new end of the run. The run can be resumed with both.
         folder::write(&place.join(SCENARIO), job.resolved.as_bytes())?;
         Ok(Self::new(place, stub, journal, from))
     }
@@ -110,7 +110,7 @@ impl Job {
     /// Checks that the integrator of the run supports checkpoints.
     ///
     /// # Errors
-    /// It does not. The error contains its position in the scenario file.
+    /// The integrator has no checkpoints. The error contains the position of `run.stepper` in the scenario file.
     pub fn check_checkpoints(&self) -> Result<(), ScenarioError> {
         let stepper = self.model.effective(self.scenario.plan.stepper);
         if !matches!(stepper, Stepper::Dopri5 { .. }) {

@@ -6,9 +6,9 @@ use stickslip_scenario::Scenario;
 
 /// Keys of a scenario that do not affect the motion.
 const BESIDE: [&str; 6] = ["title", "figures", "output", "plots", LIMITS, "run.until_steady"];
-/// Keys that determine the end of a run. A resumed run can change the one that its file contains.
+/// Keys that determine the end of a run. A resumed run can change the one of these keys that its scenario contains.
 const END: [&str; 2] = ["run.duration", "run.cycles"];
-/// Limits, which a resumed run can change, too. Otherwise a run that was stopped by a limit could not continue.
+/// Key of the limits of a run. A resumed run can change them, because a run stopped by a limit could not continue otherwise.
 const LIMITS: &str = "run.limits";
 
 /// Returns the SHA-256 of the resolved scenario without its end, limits, results, output, plots and title.
@@ -18,7 +18,7 @@ pub fn model_key(scenario: &Scenario) -> [u8; 32] {
     key(scenario, BESIDE.into_iter().chain(END))
 }
 
-/// Returns the SHA-256 of the resolved scenario without its end and limits. All parts of a run share it.
+/// Returns the SHA-256 of the resolved scenario without its end and limits. An interrupted run and its continuations have the same hash.
 pub(super) fn run_key(scenario: &Scenario) -> [u8; 32] {
     key(scenario, END.into_iter().chain([LIMITS]))
 }

@@ -15,7 +15,7 @@ use stickslip_drive::{Extent, Record, Source};
 /// Size of the read buffer, in bytes.
 const CHUNK: usize = 1 << 16;
 
-/// Checks a journal up to a mark and returns the digest of its contents.
+/// Checks that a journal begins with the contents that `mark` describes, and returns their digest.
 ///
 /// # Errors
 /// The journal is too short, was changed, or cannot be read.
@@ -39,22 +39,22 @@ pub(super) fn check(path: &Path, mark: &Mark) -> Result<Sha256, CheckpointError>
     if same { Ok(digest) } else { Err(CheckpointError::Journal(path.to_owned())) }
 }
 
-/// End of a replay.
+/// Part of a journal that is replayed, with data for checking its snapshots.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Told {
     pub(super) mark: Mark,
     /// Time that the run has reached, s.
     pub(super) reached: f64,
-    /// Whether the planned end of the run is unchanged. Then missing snapshots are no error.
+    /// Whether the planned end of the run is unchanged. In this case, missing snapshots are no error.
     pub(super) same_end: bool,
 }
 
 /// Replays a checked journal to a new recorder of the job.
 ///
-/// Snapshots that only the previous end required are skipped.
+/// Snapshots at times that were requested only for the previous end of the run are skipped.
 ///
 /// # Errors
-/// The journal is of another job, lacks a snapshot that the new end requires, or cannot be read.
+/// The journal belongs to another job, lacks a snapshot that the new end of the run requires, or cannot be read.
 pub(super) fn tell(
     path: &Path,
     told: Told,
@@ -89,7 +89,7 @@ pub(super) fn tell(
     }
 }
 
-/// The snapshots that a recorder requests.
+/// Times of the snapshots that a recorder requests during a replay.
 struct Looks {
     /// Time of the next snapshot, s; infinite after the last one.
     due: f64,
@@ -111,7 +111,7 @@ impl Looks {
     }
 }
 
-/// Returns the contact laws and engines of all contacts.
+/// Returns the contact law and the [`Engine`] (representation of the slip memory) of each contact.
 fn contacts(job: &Job) -> Vec<(&Interface, Engine)> {
     let engine = |memory: &Memory| match memory {
         Memory::Curve(_) => Engine::Curve,

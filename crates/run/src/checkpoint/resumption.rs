@@ -17,12 +17,12 @@ use std::path::{Path, PathBuf};
 use stickslip_drive::State;
 use stickslip_scenario::Scenario;
 
-/// A run that can be resumed. Its checkpoint has been checked.
+/// An interrupted run whose checkpoint has been checked, so that the run can be resumed.
 pub struct Resumption {
     place: PathBuf,
     stub: Stub,
     state: State,
-    /// Digest of the journal up to the length in the state file.
+    /// Digest of the journal up to the length that is stored in the state file.
     digest: Sha256,
 }
 
@@ -30,7 +30,7 @@ impl Resumption {
     /// Reads the checkpoint in a results folder. The pairs in `set` change the end or the limits of the run. Nothing is written.
     ///
     /// # Errors
-    /// The checkpoint is invalid or belongs to another run, another key is changed, or the run has passed the new end.
+    /// The checkpoint is invalid or belongs to another run, `set` changes another key, or the run has passed the new end.
     pub fn read(results: &Path, set: &[(String, String)]) -> Result<(Job, Self), CheckpointError> {
         let place = place(results);
         let stub = stub(&place.join(STATE), results)?;
@@ -57,10 +57,10 @@ impl Resumption {
 
     /// Replays the run so far to a new recorder of the job and continues the checkpoints.
     ///
-    /// `every` is the new interval of the checkpoints, s of wall time. `None` keeps the previous one.
+    /// `every` is the new interval of the checkpoints, s of wall time. `None` keeps the previous interval.
     ///
     /// # Errors
-    /// The journal was changed in the meantime, or a file cannot be written.
+    /// The journal was changed after [`Self::read`], or a file cannot be written.
     pub fn tell(
         mut self,
         job: &Job,
@@ -69,7 +69,7 @@ impl Resumption {
     ) -> Result<Keeper, CheckpointError> {
         let path = self.place.join(JOURNAL);
         let (mark, end) = (self.stub.mark, job.scenario.plan.duration);
-        // A run with an empty journal starts with its first row and snapshot.
+        // A run with an empty journal starts from its first row and snapshot.
         let is_begun = mark.length > 0;
         if is_begun {
             let told = Told { mark, reached: self.state.time(), same_end: self.stub.end == end };

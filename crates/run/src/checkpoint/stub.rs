@@ -1,7 +1,7 @@
 //! The file `state` with the state of a run and all data for its resumption.
 //!
 //! Every format starts with a magic string, the format version (u32), the file length (u64) and the program. The contents of [`Stub`]
-//! follow, and finally the SHA-256 of everything before. Numbers are little-endian. Texts and byte lists are preceded by their length
+//! follow, and finally the SHA-256 of all preceding bytes. Numbers are little-endian. Texts and byte lists are preceded by their length
 //! (u64).
 
 use super::error::CheckpointError;
@@ -23,7 +23,7 @@ const DIGEST: usize = 32;
 pub(super) struct Stub {
     /// Name of the run.
     pub(super) name: String,
-    /// Keys of [`model_key`](super::model_key) and `run_key`.
+    /// Hashes that [`model_key`](super::model_key) and `run_key` return for the scenario.
     pub(super) model_key: [u8; DIGEST],
     pub(super) run_key: [u8; DIGEST],
     /// Wall time between two checkpoints, s.
@@ -34,12 +34,12 @@ pub(super) struct Stub {
     pub(super) wall: f64,
     /// Length and digest of the journal.
     pub(super) mark: Mark,
-    /// State in binary form.
+    /// State of the run in binary form.
     pub(super) state: Vec<u8>,
 }
 
 impl Stub {
-    /// Returns the contents of the file.
+    /// Returns the contents of the state file.
     pub(super) fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         bytes.extend(FORM.to_le_bytes());
@@ -58,7 +58,7 @@ impl Stub {
         bytes
     }
 
-    /// Reads the contents of the file at `path`.
+    /// Decodes the contents of the state file at `path`.
     ///
     /// # Errors
     /// The file is not a complete checkpoint of this format.

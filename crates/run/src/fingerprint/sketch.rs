@@ -5,9 +5,9 @@ use crate::columns::Columns;
 use std::fmt::Write;
 use stickslip_drive::{Channel, state_name};
 
-/// Maximum number of blocks of a table. If it is reached, neighbouring blocks are merged, and the block size doubles.
+/// Maximum number of blocks of a table. When a table reaches this number, neighbouring blocks are merged, and the block size doubles.
 pub(super) const MOST_BLOCKS: usize = 64;
-/// Multiplier of the polynomial digest. It has an inverse modulo 2⁶⁴, so no bit of earlier values is lost.
+/// Multiplier of the polynomial digest. The multiplier has an inverse modulo 2⁶⁴, so no bit of earlier values is lost.
 const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// Fingerprint under construction.
@@ -18,7 +18,7 @@ pub struct Sketch {
     events: TableSketch,
 }
 
-/// Fingerprint of a table under construction. Digests are stored block by block, within a block in the order of the columns.
+/// Fingerprint of a table under construction. Digests are stored block by block, and within a block in the order of the columns.
 #[derive(Debug, Clone)]
 struct TableSketch {
     names: Vec<String>,
@@ -47,7 +47,7 @@ impl Sketch {
         self.trace.push(self.columns.of(values).map(digest));
     }
 
-    /// Adds an event with its source and kind, and the values after it.
+    /// Adds an event: its source and kind, and the channel values directly after it.
     pub fn event(&mut self, words: [&str; 2], values: &[f64]) {
         let mut values = self.columns.of(values).map(digest);
         let time = values.next();
@@ -66,7 +66,7 @@ fn digest((value, channel): (f64, &Channel)) -> (f64, u64) {
     (value, if channel.is_state { of_word(state_name(value)) } else { of_number(value) })
 }
 
-/// Returns the digest of a number. All NaN values have the same digest, as they have the same text.
+/// Returns the digest of a number. All NaN values have the same digest, because tables contain the same text for them.
 fn of_number(value: f64) -> u64 {
     mixed(if value.is_nan() { f64::NAN } else { value }.to_bits())
 }
@@ -77,7 +77,7 @@ fn of_word(word: &str) -> u64 {
 
 /// Mixes the bits of a value. The function is invertible, and every input bit affects about half of the output bits.
 ///
-/// It is the finaliser of Steele, Lea, Flood, *Fast splittable pseudorandom number generators* (2014).
+/// The function is the finaliser of Steele, Lea, Flood, *Fast splittable pseudorandom number generators* (2014).
 fn mixed(mut bits: u64) -> u64 {
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -150,7 +150,7 @@ impl TableSketch {
     }
 }
 
-/// Merges neighbouring blocks. `rows` are the length of a block and the length of the last block.
+/// Merges neighbouring blocks. `rows` contains the numbers of rows of a full block and of the last block.
 pub(super) fn halved(starts: &[f64], digests: &[u64], rows: (u64, u64)) -> (Vec<f64>, Vec<u64>) {
     let blocks = starts.len();
     let width = digests.len() / blocks.max(1);

@@ -1,4 +1,4 @@
-//! Temporary files in the folder of their final names.
+//! Temporary files for results, created in the folder of the final file.
 
 use std::fs::{self, DirEntry, File, TryLockError};
 use std::io;
@@ -32,14 +32,14 @@ pub fn draft(folder: &Path, name: &str) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
-/// Removes temporary files of these names that killed commands have left. Files that are in use or cannot be removed are kept.
+/// Removes temporary files that killed commands left for the files `names`. Files that are in use are kept.
 pub fn sweep(folder: &Path, names: &[impl AsRef<str>]) {
     for entry in drafts(folder, names).filter(|entry| !is_written(entry)) {
         let _ = fs::remove_file(entry.path());
     }
 }
 
-/// Returns whether a file is open in another command. Without locks, it is considered open if it was modified within the last minute.
+/// Returns whether a file is open in another command. Without file locks, a file modified within the last minute counts as open.
 fn is_written(entry: &DirEntry) -> bool {
     let Ok(file) = File::open(entry.path()) else { return false };
     match file.try_lock() {
@@ -52,7 +52,7 @@ fn is_written(entry: &DirEntry) -> bool {
     }
 }
 
-/// Returns whether there are temporary files of these names.
+/// Returns whether the folder contains temporary files for the files `names`.
 pub(crate) fn has_drafts(folder: &Path, names: &[impl AsRef<str>]) -> bool {
     drafts(folder, names).next().is_some()
 }

@@ -1,4 +1,4 @@
-//! Sentences about hysteresis and creep of a stack.
+//! Sentences about hysteresis and creep of a piezo stack.
 
 use stickslip_piezo::creep::Creep;
 use stickslip_quantity::Real;

@@ -1,4 +1,4 @@
-//! Contacts: materials, scales, stiffnesses.
+//! Properties of contacts before a run: materials, characteristic forces and displacements, stiffnesses.
 
 use crate::job::Job;
 use crate::parts::Parts;

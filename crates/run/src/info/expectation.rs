@@ -1,4 +1,4 @@
-//! Expected size of the output of a run, and its memory.
+//! Expected size of the output of a run, and expected memory of the program.
 
 use crate::job::Job;
 use crate::kept::draws_from_series;
@@ -16,7 +16,7 @@ const BYTES_PER_VALUE: f64 = 19.0;
 const BYTES_PER_SPRING: f64 = 150.0;
 /// Memory of the program without results, including plots, B.
 const BASE: f64 = 20e6;
-/// Ratio of the memory to the size of the stored series, for growing lists and copies.
+/// Ratio of the memory to the size of the stored time histories. The ratio exceeds 1 because lists grow and are copied.
 const OVERHEAD: f64 = 1.6;
 
 /// Expected output of a complete run.
@@ -91,7 +91,7 @@ impl Expectation {
         let written = written_events(job, &events);
         let series = Series::new(&job.model.channels(), &job.scenario.plots);
         let width = if draws_from_series(&job.scenario.plots) { series.width() } else { 0 };
-        // The plot of events needs the time of each.
+        // The plot of events needs the time of each event.
         let times = if job.scenario.plots.contains(&PlotName::Events) { written } else { 0.0 };
         let kept = (width as f64 * (rows + written) + times) * size_of::<f64>() as f64;
         let springs: usize = job.grids.iter().flatten().map(|grid| grid.count()).sum();
@@ -110,7 +110,7 @@ impl Expectation {
             rows: Real(rows),
             columns,
             trace: Real(rows * columns as f64 * BYTES_PER_VALUE),
-            // Each row has two more words.
+            // Each row of the event table has two additional words, source and kind.
             events_file: Real(written * (columns + 2) as f64 * BYTES_PER_VALUE),
             events_written: Real(written),
             kept: Real(kept),

@@ -1,4 +1,4 @@
-//! Piezo stacks: properties, commands, and a forecast of what their drivers reach.
+//! Piezo stacks: properties, commands, and a forecast of the strokes and currents that their drivers reach.
 
 use crate::job::Job;
 use crate::parts::Parts;
@@ -13,7 +13,7 @@ use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 use stickslip_scenario::{Ceramic, Piezo};
 
-/// Relative loss of stroke up to which the forecast reports none. Its steps are 1/8000 of a period.
+/// Relative loss of stroke below which the forecast reports no loss. The forecast uses time steps of 1/8000 of a period.
 const WHOLE: f64 = 2e-3;
 
 /// Properties of a stack.
@@ -198,7 +198,7 @@ fn steep(name: &str, spec: &Spec, forecast: &Forecast) -> Option<String> {
     ))
 }
 
-/// Returns the sentence that the forecast excludes hysteresis and creep.
+/// Returns the sentence that the forecast does not include hysteresis and creep.
 fn beside(piezo: &Piezo) -> Option<String> {
     let Ceramic { hysteresis, creep, compensated, idle } = &piezo.ceramic;
     if *idle || (hysteresis.is_none() && creep.is_none()) {

@@ -1,4 +1,4 @@
-//! What a run computes for a model, and what it omits.
+//! Lists of the computations that a run performs for a model, and of omitted computations.
 
 use super::name;
 use crate::Job;
@@ -30,7 +30,7 @@ pub struct Item {
 }
 
 impl Usage {
-    /// Returns the computations of a run. The same functions decide in the run.
+    /// Returns the computations of a run. The run itself uses the same functions for these decisions.
     pub fn of(job: &Job) -> Self {
         let mut usage = Self::default();
         let expected = job.model.expected(&job.start, job.scenario.plan.stepper);
@@ -128,7 +128,7 @@ impl Usage {
         }
     }
 
-    /// Adds how the indentation of contact `c` is determined.
+    /// Adds an entry about the method that determines the indentation of contact `c`.
     fn pressing(&mut self, job: &Job, c: usize, name: &str) {
         let why = match job.model.pressing(c) {
             None => return,

@@ -11,7 +11,7 @@ use stickslip_quantity::Columns;
 use stickslip_quantity::columns::{FIELDS, FRICTION};
 use stickslip_scenario::FieldsOutput;
 
-/// Writer of the two tables.
+/// Writer of `fields.csv` and `friction.csv`.
 pub(super) struct FieldTables<'a> {
     contacts: Vec<Followed<'a>>,
     fields: Sheet,
@@ -24,7 +24,7 @@ struct Followed<'a> {
     law: &'a Interface,
     /// Slip memory at the end of the last reported path.
     memory: Memory,
-    /// Friction work up to then. `None` for a contact without fields.
+    /// Friction work per area up to the end of this path. `None` for a contact without fields.
     map: Option<FrictionMap>,
 }
 
@@ -45,7 +45,7 @@ impl<'a> FieldTables<'a> {
         Ok(Self { contacts, fields: open(FIELDS)?, friction: open(FRICTION)? })
     }
 
-    /// Adds a path of contact `c`.
+    /// Adds a section of the path of contact `c` in the (d, u) plane.
     pub(super) fn path(&mut self, c: usize, segment: Segment) {
         let Some(contact) = self.contacts.get_mut(c) else { return };
         let Some(map) = &mut contact.map else { return };
@@ -54,7 +54,7 @@ impl<'a> FieldTables<'a> {
         let _ = contact.memory.commit(contact.law, segment);
     }
 
-    /// Writes the fields at a time, s.
+    /// Writes stresses, displacements and friction work of all contacts at time `t`, s.
     pub(super) fn look(&mut self, t: f64, memories: &[Memory]) {
         for (contact, memory) in self.contacts.iter().zip(memories) {
             let Followed { name, law, memory: before, map: Some(map) } = contact else { continue };
@@ -70,7 +70,7 @@ impl<'a> FieldTables<'a> {
                 field.error.into_iter().for_each(|error| self.fields.number(error));
                 self.fields.end_line();
             }
-            // A path is reported at its end. Its part before this time is added here.
+            // A path is reported at its end only. Its part before this time is added here.
             let mut map = map.clone();
             map.follow(law, before, Segment::Straight(memory.apex()));
             for ((r, work), way) in map.radii().iter().zip(map.work()).zip(map.way()) {

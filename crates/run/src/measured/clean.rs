@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 use stickslip_measure::{Interval, SteadyLoop, noise};
 
-/// Minimum height of a spike: in standard deviations of the noise, and relative to usual differences between rows.
+/// Minimum height of a spike: in standard deviations of the noise, and relative to the usual difference of consecutive values.
 const SPIKE: [f64; 2] = [10.0, 6.0];
-/// Quantile of the differences that is used as the usual difference.
+/// Quantile of the differences of consecutive values that is used as the usual difference.
 const USUAL: f64 = 0.9;
 
 /// Effects that are corrected on request.
@@ -22,7 +22,7 @@ pub struct Correct {
 pub enum Rig {
     /// Known stiffness of the rig, N/m.
     Stiffness(f64),
-    /// Known tangent stiffness of the contact at the reversals, N/m. The additional compliance is that of the rig.
+    /// Known tangent stiffness of the contact at the reversals, N/m. Any additional compliance is attributed to the rig.
     Contact(f64),
 }
 
@@ -42,7 +42,7 @@ impl Rig {
     }
 }
 
-/// Amounts of the corrections.
+/// Values that are used for the corrections.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Correction {
     /// Time lag of the force, s.
@@ -87,7 +87,7 @@ pub(super) fn clean<'a>(
     (u, force, [first, second])
 }
 
-/// Returns values at the times t + lag by linear interpolation. Beyond the ends they are constant.
+/// Returns the values at the times t + lag by linear interpolation. Before the first and after the last time, values are constant.
 fn earlier(t: &[f64], values: &[f64], lag: f64) -> Vec<f64> {
     let at = |time: f64| {
         let after = t.partition_point(|t| *t < time).clamp(1, t.len() - 1);

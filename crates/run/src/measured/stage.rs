@@ -8,9 +8,9 @@ use stickslip_measure::{Interval, SteadyLoop, Thresholds, steady_loop};
 
 /// Relative changes of the amplitude and of the cycle duration that start a new stage.
 const STAGE: [f64; 2] = [0.1, 0.25];
-/// Maximum number of stages with a fitted steady loop. The longest ones are fitted.
+/// Maximum number of stages with a fitted steady loop. The stages with the most cycles are fitted.
 const FITTED: usize = 20;
-/// Deviation of the forces from the best branch, relative to Q\*, above which the family of curves does not apply.
+/// Deviation of the forces from the best fitting branch, relative to Q\*, above which the family of curves does not describe the loop.
 pub const MISFIT: f64 = 0.01;
 /// Quantiles of Student's t for 95 % intervals, for degrees of freedom from 1.
 const STUDENT: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
@@ -18,7 +18,7 @@ const STUDENT: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.
 /// Consecutive cycles of similar amplitude and duration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// Indices of its cycles.
+    /// Indices of the cycles of the stage.
     pub cycles: Range<usize>,
     /// Start and end, s.
     pub time: [f64; 2],
@@ -26,13 +26,13 @@ pub struct Stage {
     pub steady: Option<SteadyLoop>,
     /// Results with confidence intervals, by name.
     pub results: Vec<(&'static str, Interval)>,
-    /// Slip regime, if a profile was given: `partial`, `gross`, or `undecided` if an interval contains a threshold.
+    /// Slip regime, if a profile was given: `partial`, `gross`, or `undecided` if a confidence interval contains the threshold.
     pub regime: Option<&'static str>,
 }
 
-/// Rows and energies of a record within and outside of its cycles.
+/// Numbers of rows and energies of a record within and outside of its cycles.
 ///
-/// A row belongs to the cycle in which it lies or which it starts. Energies are ∫F du by the trapezoidal rule.
+/// A row that two cycles share belongs to the later cycle. Energies are ∫F du by the trapezoidal rule.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Account {
     /// Number of rows.
@@ -73,7 +73,7 @@ impl Account {
     }
 }
 
-/// Returns the work between a row and the next one, J.
+/// Returns the work between a row and the next row, J.
 pub(super) fn work_after((u, force): (&[f64], &[f64]), row: usize) -> f64 {
     0.5 * (force[row] + force[row + 1]) * (u[row + 1] - u[row])
 }
@@ -134,7 +134,7 @@ impl Stage {
         let results = match &steady {
             None => by_cycles(stage),
             Some(steady) if steady.misfit < MISFIT => of_steady(steady),
-            // Neither the scatter of cycles nor the misfitting branch gives the error alone, so both intervals are combined.
+            // Both the scatter of the cycles and the misfit of the branch contribute to the error, so both intervals are combined.
             Some(steady) => {
                 let other = of_steady(steady);
                 let widened = |(name, own): (&'static str, Interval)| {
@@ -229,7 +229,7 @@ fn by_cycles(stage: &[MeasuredCycle]) -> Vec<(&'static str, Interval)> {
         let count = values.len() as f64;
         let value = values.iter().sum::<f64>() / count;
         let squares = values.iter().map(|other| (other - value).powi(2)).sum::<f64>();
-        // Beyond the table, the normal quantile with its first correction is used.
+        // For more degrees of freedom than in the table, the normal quantile with its first correction is used.
         let quantile =
             STUDENT.get(values.len().wrapping_sub(2)).copied().unwrap_or(1.96 + 2.6 / (count - 1.0));
         let half = quantile * (squares / (count - 1.0) / count).sqrt();

@@ -5,7 +5,7 @@ use crate::{Real, quantity};
 use serde_json::{Value, json};
 use stickslip_measure::Interval;
 
-/// Smallest reported drift per cycle, relative to the amplitude, and lag, relative to the period.
+/// Smallest drift per cycle, relative to the amplitude, and smallest lag, relative to the period, that are reported.
 const LITTLE: f64 = 1e-4;
 impl Evaluated {
     /// Returns all results as JSON.

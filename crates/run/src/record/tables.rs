@@ -21,21 +21,21 @@ pub(super) struct Tables<'a> {
     pub(super) trace: Table,
     pub(super) events: Table,
     pub(super) cycles: CyclesTable,
-    /// `None` if no steps are written.
+    /// Table of steps. `None` if no steps are written.
     pub(super) steps: Option<StepsTable>,
     pub(super) insides: Insides<'a>,
     /// Reserved disk space for the last block of each table.
     reserve: Vec<File>,
 }
 
-/// A complete table without its final name.
+/// A complete table in a temporary file.
 #[derive(Debug)]
 pub struct Draft {
     /// Final file name.
     pub name: &'static str,
-    /// The file.
+    /// Temporary file with the table.
     pub file: NamedTempFile,
-    /// Seal for the summary.
+    /// Row count and SHA-256 of the table for the summary.
     pub seal: Seal,
 }
 
@@ -85,7 +85,7 @@ impl<'a> Tables<'a> {
         self.reserve.clear();
     }
 
-    /// Closes the tables. After a write error a table ends with its last complete block. The error is part of the result.
+    /// Closes the tables. After a write error a table ends with its last complete block, and the result contains the error.
     ///
     /// # Errors
     /// A table cannot be written at all.
@@ -98,7 +98,7 @@ impl<'a> Tables<'a> {
         {
             match finished {
                 Ok(written) => optional.extend(written.map(|written| (name, written))),
-                // The other tables are useful without this one.
+                // The other tables are useful without this table.
                 Err(failure) => {
                     closed.failure.get_or_insert(failure);
                     closed.absent.push(name);

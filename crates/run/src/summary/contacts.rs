@@ -1,4 +1,4 @@
-//! Contacts, with the results of their last cycle.
+//! Results of the contacts, including those of their last cycle.
 
 use super::fretting::Fretting;
 use crate::job::Job;
@@ -148,7 +148,7 @@ fn scales(job: &Job, c: usize) -> Scales {
 }
 
 impl NormalMotion {
-    /// Returns the ranges, or `None` without rows.
+    /// Returns the ranges of normal force and indentation, or `None` if the run has no rows.
     fn of(tally: &ContactTally) -> Option<Self> {
         let [force, indentation] = tally.ranges.map(|range| range.map(Real));
         Some(Self { force, indentation, open_share: Real(tally.open_share()?) })

@@ -39,11 +39,11 @@ struct Shares {
 }
 
 impl DriverSummary {
-    /// Returns a sentence with the fractions of the time at limits, or `None` without any.
+    /// Returns a sentence with the fractions of the time at each limit, or `None` if no limit was reached.
     pub(super) fn line(&self, name: &str) -> Option<String> {
         let Shares { current_up, current_down, window_low, window_high } = &self.at_limit;
         let [current, window] = [current_up.0 + current_down.0, window_low.0 + window_high.0];
-        // A command that only touches an end of the window is not clipped.
+        // A command that only touches an end of the voltage window is not clipped.
         let told = |share: f64, what: &str| {
             let percent = format!("{:.1} %", 100.0 * share);
             (percent != "0.0 %").then(|| format!("{percent} of the time {what}"))

@@ -87,7 +87,7 @@ struct Limits {
 }
 
 impl Fretting {
-    /// Returns the last cycle. If the contact `is_damped`, friction work and damping work are separate.
+    /// Returns the results of the last cycle. If the contact `is_damped`, friction work and damping work are separate.
     pub(super) fn of(cycles: &ContactCycles, is_damped: bool) -> Option<Self> {
         let JudgedCycle { figures: last, regime } = cycles.last?;
         let cycle = last.cycle;

@@ -9,7 +9,7 @@ use stickslip_drive::scene::Side;
 use stickslip_measure::foot::Foot;
 use stickslip_quantity::Real;
 
-/// Two durations whose difference is below this fraction of their sum count as equal.
+/// Two durations count as equal if their difference is below this fraction of their sum.
 const SAME: f64 = 1e-3;
 
 /// Losses of a step.
@@ -31,7 +31,7 @@ pub struct Losses {
 }
 
 impl Losses {
-    /// Returns the losses of a step with an error, its back-step `fall` and the travel of the foot, all in m.
+    /// Returns the losses of a step with its error, from the back-step `fall` and the travel of the foot, all in m.
     pub(super) fn of([step, error]: [f64; 2], fall: f64, travel: Option<f64>) -> Self {
         let share = (step.abs() > error).then(|| Real(fall / (step.abs() + fall)));
         let lost_stroke = travel.map(|travel| Real(travel - step.abs()));
@@ -48,8 +48,8 @@ pub(super) struct FootMotion {
     pub(super) own_times: Option<[f64; 2]>,
 }
 
-/// Returns the motion of the foot in a period, or the reason why there is none. `ways` are forward and return stroke of
-/// the waveform.
+/// Returns the motion of the foot in the last whole period, or the reason why it is unknown. `ways` are forward and return stroke of the
+/// waveform.
 pub(super) fn foot(job: &Job, outcome: &Outcome, ways: [&Way; 2]) -> Result<FootMotion, &'static str> {
     let foot = Foot::of(job)
         .ok_or("it is defined only for a drive with one foot that follows the waveform of `figures`")?;

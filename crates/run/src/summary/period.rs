@@ -103,8 +103,8 @@ pub struct ContactPeriod {
     pub(super) ringing_left: Real,
 }
 
-/// Returns the evaluation of the last period, or `None` without one. `stride` is the motion of the body in it; a step
-/// below `error`, m, counts as none.
+/// Returns the evaluation of the last whole period, if there is one. `stride` is the motion of the body in this period; a step below
+/// `error`, m, counts as no step.
 pub(super) fn of(
     job: &Job,
     outcome: &Outcome,
@@ -143,22 +143,22 @@ pub(super) fn of(
     })
 }
 
-/// Fraction of the travel in both strokes. If both strokes are equally slow, the falling one is the forward stroke only
-/// if the step in its direction exceeds this fraction.
+/// Smallest step, relative to the travel in both strokes, that makes the falling stroke the forward stroke if both strokes are equally
+/// slow.
 const STEP: f64 = 1e-3;
 
-/// Returns the index of the forward stroke: 0 for the rising one, 1 for the falling one.
+/// Returns the index of the forward (slower) stroke: 0 if it is the rising stroke, 1 if it is the falling stroke.
 fn forth(account: &Account) -> usize {
     let [rising, falling] = account.time;
     if (rising - falling).abs() > 1e-3 * (rising + falling) {
         return usize::from(falling > rising);
     }
-    // Without a step, rounding would decide.
+    // Without this threshold, rounding would decide if the step is 0.
     let step: f64 = account.travel.iter().sum();
     usize::from(step < -STEP * (account.travel[0].abs() + account.travel[1].abs()))
 }
 
-/// Returns the travel of the waveform in a stroke.
+/// Returns the change of the waveform in a stroke.
 fn stroke(phases: &Phases, side: usize) -> f64 {
     let [rise, fall] = phases.ways();
     if side == 0 { rise } else { -fall }

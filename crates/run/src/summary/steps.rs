@@ -1,4 +1,4 @@
-//! Steps of a drive and their settling.
+//! Steps of a drive and the convergence of the step length.
 
 use super::losses::Losses;
 use super::period::LastPeriod;
@@ -16,21 +16,20 @@ use stickslip_measure::settling::BAND;
 use stickslip_measure::{Bounds, Settling, Steps, Strides};
 use stickslip_quantity::Real;
 
-/// A step below this fraction of the natural displacement counts as none.
+/// A step below this fraction of the natural displacement counts as no step.
 const NOTHING: f64 = 1e-2;
 /// Number of samples of a period for the total travel of a waveform.
 const MOMENTS: u32 = 1000;
 /// Permitted ratio of the global to the local error of a run with a tolerance.
 const GLOBAL: f64 = 100.0;
 const FIXED: f64 = 1e-9;
-/// Largest relative distance between the step of a run with fixed time steps and the step of the periodic orbit to
-/// which it belongs.
+/// Largest relative difference of the step lengths of a run with fixed time steps and of a periodic orbit that count as the same motion.
 const COARSE: f64 = 0.1;
 /// Fraction of the time with all contacts open above which a body counts as hopping.
 const FLIES: f64 = 0.01;
 /// Beginning of a note about the reason for missing steps.
 pub(super) const NO_STEP: &str = "no step reported";
-/// A step below this fraction of the motion of the body in a period is rounding.
+/// A step below this fraction of the motion of the body in a period counts as a rounding error.
 const ROUNDING: f64 = 1e-9;
 
 /// Steps of the body over the whole periods of the waveform, both named in `figures`.
@@ -222,7 +221,7 @@ pub(super) fn of(
         return None;
     };
     let bounds = match flight(job, outcome) {
-        // Without contact no motion counts as a step.
+        // While the body touches nothing, no motion counts as a step.
         Some(_) => Bounds { most: 0.0, ..step_bounds(job) },
         // A hopping body has no upper bound of its steps.
         None if hops(job, outcome) => Bounds { most: f64::INFINITY, ..step_bounds(job) },
@@ -266,8 +265,7 @@ fn unchosen(job: &Job) -> Option<String> {
     Some(format!("{NO_STEP}: name a {key} in figures, one of {}", names.join(", ")))
 }
 
-/// Returns the time, s, since which all contacts of the body named in `figures` have been open, if that is at least one
-/// whole period.
+/// Returns the time, s, since which all contacts of the body named in `figures` have been open, if it precedes the last whole period.
 pub(crate) fn flight(job: &Job, outcome: &Outcome) -> Option<f64> {
     let (scene, figures) = (&job.scenario.scene, job.scenario.figures);
     let (body, waveform) = (figures.body?, scene.waveforms.get(figures.waveform?)?);
@@ -290,9 +288,9 @@ fn hops(job: &Job, outcome: &Outcome) -> bool {
 
 /// Returns bounds for steps, independent of the run.
 ///
-/// * A step below 1 % of the natural displacement counts as none.
+/// * A step below 1 % of the natural displacement counts as no step.
 /// * A step above twice the stroke, or above the total travel of a burst, means that the body slides away.
-/// * The error of a step is at least that of the stepper.
+/// * The error of a step is at least the error that the stepper promises.
 #[must_use]
 pub fn step_bounds(job: &Job) -> Bounds {
     let natural = (0..job.scenario.scene.contacts.len()).filter_map(|c| job.model.contact_natural(c));
@@ -305,8 +303,8 @@ pub fn step_bounds(job: &Job) -> Bounds {
     Bounds { least: NOTHING * natural, most, error: promised * natural }
 }
 
-/// Returns the error of a step by the accuracy of the stepper, m: of `frames` the error per stroke, of other fixed time
-/// steps 0. Returns `None` with a tolerance.
+/// Returns the error of a step that the stepper promises, m: for `frames` the accuracy times the stroke, for other fixed time steps 0.
+/// Returns `None` for steppers with a tolerance.
 fn promised(job: &Job) -> Option<f64> {
     match job.model.effective(job.scenario.plan.stepper).accuracy() {
         Accuracy::Tolerance(_) => None,
@@ -326,8 +324,7 @@ pub(super) fn stroke(job: &Job) -> Option<f64> {
     (followed || drives).then_some(high - low)
 }
 
-/// Returns the total travel of the waveform named in `figures` in a period, m, from samples. A burst moves back and
-/// forth several times.
+/// Returns the total travel of the waveform named in `figures` in a period, m, from samples. For bursts, it exceeds twice the stroke.
 fn way(job: &Job) -> Option<f64> {
     let waveform = &job.scenario.scene.waveforms.get(job.scenario.figures.waveform?)?.part;
     let (period, delay) = (waveform.period()?, waveform.timing().delay);

@@ -9,15 +9,15 @@ use stickslip_drive::facts::zero_step_stroke;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// A step below this fraction of the stroke counts as none.
+/// A step below this fraction of the stroke counts as no step.
 const NOTHING: f64 = 0.01;
 
-/// Returns whether a period made no step, or one against the forward stroke.
+/// Returns whether the body made no step in a period, or a step against the direction of the forward stroke.
 pub(super) fn is_odd(last: &LastPeriod) -> bool {
     last.forth.stroke.is_some_and(|stroke| last.step.0 * stroke.0.signum() <= NOTHING * stroke.0.abs())
 }
 
-/// Returns the sentences about a period.
+/// Returns the sentences that explain the step of a period.
 pub(super) fn of(job: &Job, drivers: &Parts<DriverSummary>, last: &LastPeriod) -> Vec<String> {
     let mut lines = Vec::new();
     lines.extend(way(last));
@@ -69,7 +69,7 @@ fn way(last: &LastPeriod) -> Option<String> {
     })
 }
 
-/// Returns the sentence about the lost stroke, or about the reason why there is none.
+/// Returns the sentence about the lost stroke, or about the reason why it is unknown.
 fn lost(last: &LastPeriod) -> Option<String> {
     last.forth.stroke?;
     Some(match (last.losses.lost_stroke, last.foot) {
@@ -134,7 +134,7 @@ fn short(job: &Job, last: &LastPeriod) -> Option<String> {
     })
 }
 
-/// Smallest fraction of the work that is printed.
+/// Smallest fraction of the input work that is printed.
 const UNSEEN: f64 = 5e-4;
 
 /// Returns the sentence about the energy balance of the period.

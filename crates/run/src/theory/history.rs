@@ -9,8 +9,8 @@ const MOST: usize = 1000;
 
 /// Piecewise straight path in the (d, u) plane.
 ///
-/// If there are several corners and the first one gives a normal value and no tangential force, the path begins there with unstretched
-/// springs. Otherwise it begins at u = 0, with the normal value of the first corner or else the default.
+/// If there are several corners and the first corner has a normal value and no tangential force, the path begins there with unstretched
+/// springs. Otherwise the path begins at u = 0, with the normal value of the first corner, or with the default value if it has none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct History {
     /// Corners of the path.
@@ -20,7 +20,7 @@ pub struct History {
 /// A corner of a history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
-    /// Normal value at the corner. `None` means unchanged.
+    /// Normal value at the corner. `None` keeps the value of the previous corner.
     pub normal: Option<Normal>,
     /// Tangential value at the corner.
     pub tangential: Tangential,
@@ -40,7 +40,7 @@ pub enum Normal {
 pub enum Tangential {
     /// Displacement u, m.
     Displacement(f64),
-    /// Tangential force, N. Of several displacements with this force, the first one on the path is used.
+    /// Tangential force, N. If several displacements give this force, the first displacement on the path is used.
     Force(f64),
 }
 
@@ -49,7 +49,7 @@ impl History {
     /// colon. Each value is a length or a force.
     ///
     /// # Errors
-    /// The text is no list of corners.
+    /// The text is not a list of corners.
     pub fn parse(text: &str) -> Result<Self, TheoryError> {
         let corners: Result<Vec<Corner>, String> = text.split(',').map(corner).collect();
         Self::checked(corners.map_err(TheoryError::History)?)
@@ -58,7 +58,7 @@ impl History {
     /// Reads a CSV file with a column `u` or `fx` and an optional column `d` or `fn`, with units in the header.
     ///
     /// # Errors
-    /// The file is no such table.
+    /// The file cannot be read or does not have these columns.
     pub fn read(path: &Path) -> Result<Self, TheoryError> {
         let Pairs { first, second, values } =
             pairs(path, &[("d", "m"), ("fn", "N")], &[("u", "m"), ("fx", "N")])?;
@@ -93,14 +93,14 @@ fn corner(text: &str) -> Result<Corner, String> {
     Ok(Corner { normal, tangential: either(tangential, Tangential::Displacement, Tangential::Force)? })
 }
 
-/// Smallest magnitude except 0 and largest magnitude of a value, in SI.
-// Powers of other values overflow or underflow, and quadrature does not converge.
+/// Smallest non-zero and largest accepted magnitude of a value, in SI units.
+// Outside of this range, powers overflow or underflow, and quadrature does not converge.
 const SIZES: [f64; 2] = [1e-24, 1e12];
 
 /// Reads a quantity with unit and returns its value in SI.
 ///
 /// # Errors
-/// The text is no quantity of that unit, or outside the range of magnitudes.
+/// The text is not a quantity with this unit, or its value is outside of the range of magnitudes.
 pub fn asked(text: &str, unit: &str) -> Result<f64, String> {
     let value = quantity(text, unit)?;
     let [least, most] = SIZES;

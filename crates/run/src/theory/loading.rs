@@ -1,4 +1,4 @@
-//! One first loading of a contact.
+//! First tangential loading of a contact from the unloaded state at constant indentation.
 
 use super::state::contact_word;
 use super::{Subject, TheoryError};
@@ -80,7 +80,7 @@ impl Loading {
     }
 }
 
-/// Returns the friction work, J. In full stick it is exactly 0.
+/// Returns the friction work, J. In full stick the result is exactly 0.
 pub(super) fn worked(outcome: &Outcome) -> f64 {
     if outcome.state == ContactState::Stick { 0.0 } else { outcome.friction }
 }

@@ -7,7 +7,7 @@ use stickslip_contact::{Apex, Curve, FirstLoadingError, Interface, Memory, Norma
 /// Tolerance of a given force relative to the friction limit.
 const ON_IT: f64 = 1e-15;
 
-/// Returns the points of the path, its start first.
+/// Returns the points of the load history in the (d, u) plane, beginning with the start.
 pub(super) fn route(law: &Interface, pressed: f64, history: &History) -> Result<Vec<Apex>, TheoryError> {
     let corners = &history.corners;
     let depth = |k: usize, normal: Normal| {
@@ -49,7 +49,7 @@ pub(super) fn route(law: &Interface, pressed: f64, history: &History) -> Result<
     Ok(route)
 }
 
-/// Returns the displacement nearest to the present one at which a straight path to the indentation d (m) gives the force (N).
+/// Returns the displacement u, m, nearest to the current displacement, at which a straight path to (`d`, u) gives the force `force`, N.
 fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, FirstLoadingError> {
     let from = memory.apex();
     let limit = law.friction() * law.normal_force(d);
@@ -62,7 +62,7 @@ fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, Fir
         return Ok(from.u);
     }
     let sense = if force > at_rest { 1.0 } else { -1.0 };
-    // At this distance the whole contact slips.
+    // A displacement by this distance leads to gross slip.
     let most = 2.0 * law.gross_slip_displacement(from.d.max(d));
     let is_there = |u: f64| sense * (reached(u) - force) >= -ON_IT * limit;
     let (mut near, mut far) = (from.u, from.u + sense * most);
@@ -75,7 +75,7 @@ fn push(law: &Interface, memory: &Memory, d: f64, force: f64) -> Result<f64, Fir
     }
 }
 
-/// Returns the error of a corner, counted from 1.
+/// Returns the error for the corner with the number `corner`, from 1.
 pub(super) fn refused(corner: usize, source: FirstLoadingError) -> TheoryError {
     TheoryError::Corner { corner, source }
 }

@@ -136,7 +136,7 @@ pub struct UniversalRow {
 }
 
 impl Sheet {
-    /// Computes the constants of a contact and, unless it is open, its curves at a number of points.
+    /// Computes the constants of a contact and, unless the contact is open, its curves at a number of points.
     ///
     /// # Errors
     /// The profile does not reach the indentation, or the first loading is impossible.
@@ -167,7 +167,7 @@ impl Sheet {
         })
     }
 
-    /// Returns a copy without the curves.
+    /// Returns a copy of the constants without the curves.
     #[must_use]
     pub fn without_curves(&self) -> Self {
         Self { normal: Vec::new(), universal: Vec::new(), ..self.clone() }
@@ -231,11 +231,11 @@ impl NormalRow {
 }
 
 impl UniversalRow {
-    /// Computes the point at a fraction between full stick (0) and the onset of gross slip (1). The fraction is that of
-    /// the slipped radius or, for profiles that are not strictly convex, of the displacement.
+    /// Computes the point at a fraction between full stick (0) and the onset of gross slip (1). The fraction refers to the slipped part of
+    /// the radius, or to the displacement for profiles that are not strictly convex.
     fn at(law: &Interface, d: f64, share: f64) -> Result<Self, TheoryError> {
         let a = law.profile().radius(d);
-        // Full stick is given by the displacement 0, which is exact.
+        // Full stick is computed from the displacement 0, which is exact.
         let asked = if share > 0.0 && law.profile().is_strictly_convex() {
             TangentialGiven::StickRadius((1.0 - share) * a)
         } else {

@@ -1,13 +1,13 @@
-//! Springs of a contact with their forces, and the word for the state of a contact.
+//! Springs of a contact with their forces, and words for the states of a contact.
 
 use stickslip_contact::{ContactState, Interface, Memory, Spring, Springs};
 
 /// A spring with its forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadedSpring {
-    /// Position, stretch and state.
+    /// Position, stretch and slip state of the spring.
     pub spring: Spring,
-    /// Normal force, N (4.23). 0 without contact.
+    /// Normal force, N (4.23). The force is 0 for a spring that is not in contact.
     pub normal_force: f64,
     /// Tangential force, N (4.23).
     pub tangential_force: f64,
@@ -16,7 +16,7 @@ pub struct LoadedSpring {
 }
 
 impl LoadedSpring {
-    /// Returns the springs of `grid` in the present state of a contact, without those outside the profile.
+    /// Returns the springs of `grid` in the present state of a contact, without springs outside of the profile.
     pub fn of(law: &Interface, memory: &Memory, grid: &Springs) -> Vec<Self> {
         let d = memory.apex().d;
         let springs = memory.springs(law, grid).filter(|spring| spring.height.is_finite());

@@ -23,7 +23,7 @@ pub struct Subject<'a> {
     pub profile: String,
 }
 
-/// Error in the solution of a contact.
+/// Error of the solution of a single contact.
 #[derive(Debug, Error)]
 pub enum TheoryError {
     /// The scenario has no contacts.
@@ -34,7 +34,7 @@ pub enum TheoryError {
     Unknown {
         /// Given name.
         asked: String,
-        /// Suggestion, on a line of its own.
+        /// Suggestion of a similar name, on a separate line.
         help: String,
     },
     /// The scenario has several contacts, and no name was given.
@@ -99,7 +99,7 @@ impl<'a> Subject<'a> {
     /// Returns the contact with the given name, or the only contact.
     ///
     /// # Errors
-    /// There is no contact, none with that name, or several and no name.
+    /// The scenario has no contact, no contact has this name, or there are several contacts and no name was given.
     pub fn find(job: &'a Job, name: Option<&str>) -> Result<Self, TheoryError> {
         let contacts = &job.scenario.scene.contacts;
         let place = match (name, contacts.len()) {
@@ -132,7 +132,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// Returns the default normal value: the indentation of the scenario at t = 0.
+    /// Returns the normal value if none is given: the indentation of the scenario at t = 0.
     pub fn pressed(&self) -> NormalGiven {
         NormalGiven::Indentation(self.start)
     }

@@ -14,24 +14,24 @@ use stickslip_measure::Warning;
 use stickslip_quantity::Real;
 use stickslip_quantity::quantity;
 
-/// Displacement in contact radii above which a forgotten unit is likely.
+/// Displacement, relative to the contact radius, above which the unit was probably forgotten.
 const FAR: f64 = 100.0;
-/// Rows per section between two corners.
+/// Number of rows of the table per section between two corners.
 const ROWS: usize = 64;
-/// Steps per section for the friction work per area.
+/// Number of steps per section between two corners for the friction work per area.
 const STEPS: usize = 24;
 /// Number of radii of the fields, up to [`BEYOND`] times the largest contact radius.
 const RADII: usize = 241;
 /// Number of radii for the friction work per area.
 const MAP_RADII: usize = 81;
-/// A value below this fraction of the largest one of the history is rounding.
+/// A value below this fraction of the largest value of the history counts as a rounding error.
 const ROUNDING: f64 = 1e-12;
-/// Relative difference of stick radius and contact radius below which both are equal.
+/// Relative difference of stick radius and contact radius below which both count as equal.
 const AT_EDGE: f64 = 1e-9;
-/// Frames of the animation per section, and number of last sections with frames.
+/// Number of animation frames per section, and number of sections at the end of the history that are animated.
 const FRAMES: usize = 12;
 const FRAMED: usize = 5;
-/// Number of springs of the row, with the same extent as the fields.
+/// Number of springs of a spring row that extends as far as the fields.
 const SPRINGS: usize = 121;
 
 /// Solution along a load history.
@@ -39,7 +39,7 @@ const SPRINGS: usize = 121;
 pub struct Walk {
     /// Points from the start to the last corner, a fixed number per section.
     pub stops: Vec<Stop>,
-    /// Start and corners.
+    /// States of the contact at the start and at the corners.
     pub moments: Vec<Moment>,
     /// States of the springs in the last sections for an animation. Empty unless requested.
     pub frames: Vec<Frame>,
@@ -49,7 +49,7 @@ pub struct Walk {
     pub deepest: f64,
 }
 
-/// Point of the history.
+/// State of the contact at a point of the load history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
     /// Number of the corner at the end of the section, 0 for the start.
@@ -77,22 +77,22 @@ pub struct Stop {
 /// State of a contact at a corner.
 #[derive(Debug, Clone)]
 pub struct Moment {
-    /// Forces, radii and energies.
+    /// Forces, radii and energies at the corner.
     pub stop: Stop,
     /// Fields from the centre outwards. Empty for lists of springs.
     pub fields: Vec<Field>,
-    /// Rings of stick and slip.
+    /// Concentric zones of stick and slip.
     pub zones: Vec<Zone>,
     /// Row of springs.
     pub springs: Vec<LoadedSpring>,
-    /// Corners (h, p) of the memory curve, m, from the centre to the edge. Empty while the contact is open.
+    /// Breakpoints (h, p) of the slip memory curve, m, from the centre to the edge. Empty while the contact is open.
     pub knots: Vec<(f64, f64)>,
 }
 
 /// Springs of a contact at a point of the history.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    /// Point of the history.
+    /// State of the contact at a point of the load history.
     pub stop: Stop,
     /// Row of springs.
     pub springs: Vec<LoadedSpring>,
@@ -121,7 +121,7 @@ pub struct FrictionStep {
 }
 
 impl Walk {
-    /// Computes a contact along a history from a given normal value. `has_frames` adds the states for an animation.
+    /// Computes a contact along a load history that starts with the normal value `normal`. `has_frames` adds the states for an animation.
     ///
     /// # Errors
     /// A corner cannot be reached, or the springs at all corners exceed the memory limit.
@@ -166,7 +166,7 @@ impl Walk {
             }
             let done = memory.commit(law, Segment::Straight(pair[1]));
             friction += done.map_err(|_| refused(corner, FirstLoadingError::Displacement(pair[1].u)))?;
-            // A preview of a path of length 0 has no state.
+            // The state is unknown after a path of length 0.
             let stop = Stop::at(law, &memory, pair[1], (corner, 1.0, friction));
             if let Some(last) = stops.last_mut() {
                 *last = stop;
@@ -181,7 +181,7 @@ impl Walk {
 impl Walk {
     /// Returns a warning if a displacement is much larger than the contact, so that a unit may be missing.
     pub fn warning(&self, law: &Interface) -> Option<Warning> {
-        // The first one of several.
+        // Of several largest displacements, the first is used.
         let stops = self.moments.iter().rev().map(|moment| moment.stop);
         let farthest = stops.max_by(|a, b| a.apex.u.abs().total_cmp(&b.apex.u.abs()))?;
         let (way, radius) = (farthest.apex.u.abs(), law.profile().radius(self.deepest));
@@ -200,7 +200,7 @@ impl Walk {
         )
     }
 
-    /// Returns a quantity of a point for output: 0 if it is only rounding compared with the largest one of the history.
+    /// Returns a quantity at a point for output. Values that are rounding errors compared with the largest value of the history become 0.
     pub fn told(&self, stop: &Stop, of: fn(&Stop) -> f64) -> f64 {
         let largest = self.stops.iter().map(|stop| of(stop).abs()).fold(0.0, f64::max);
         let value = of(stop);
@@ -213,12 +213,12 @@ fn grid(end: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| end * k as f64 / (count - 1) as f64).collect()
 }
 
-/// Returns the mid radii of `count` rings up to a radius, m. They exclude the centre and the edge, where pressures may be infinite.
+/// Returns the mid radii of `count` rings up to a radius, m. The centre and the edge are excluded, because pressures may be infinite there.
 fn rings(radius: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| radius * (k as f64 + 0.5) / count as f64).collect()
 }
 
-/// Returns the point at a fraction of a section.
+/// Returns the point at a fraction `share` of the section between two points of the history.
 fn between(from: Apex, to: Apex, share: f64) -> Apex {
     if share == 1.0 {
         return to;
@@ -226,7 +226,7 @@ fn between(from: Apex, to: Apex, share: f64) -> Apex {
     Apex { d: from.d + (to.d - from.d) * share, u: from.u + (to.u - from.u) * share }
 }
 
-/// Computes the springs at points of a section, on a copy of the memory.
+/// Computes the springs at points of a section, using a copy of the slip memory.
 fn framed(
     law: &Interface,
     memory: &Memory,
@@ -242,7 +242,7 @@ fn framed(
     stops.filter_map(frame).collect()
 }
 
-/// Follows a section in steps, on a copy of the memory, and passes the friction work after each step to `told`.
+/// Moves a copy of the slip memory along a section in steps and passes the friction work after each step to `told`.
 fn follow(
     law: &Interface,
     memory: &Memory,
@@ -264,7 +264,7 @@ fn follow(
 }
 
 impl Stop {
-    /// Computes the point at the end of a straight path from the memory. `friction` (J) is the friction work before this path.
+    /// Computes the state at the end of a straight path from the current slip memory. `friction` (J) is the friction work before this path.
     fn at(
         law: &Interface,
         memory: &Memory,
@@ -273,7 +273,7 @@ impl Stop {
     ) -> Self {
         let outcome = memory.preview(law, apex);
         let a = law.profile().radius(apex.d);
-        // Springs that slipped and are about to lift off may remain by rounding.
+        // By rounding, a few slipped springs at the edge may still be in contact just before they lift off.
         let sticks = outcome.state == ContactState::Partial && outcome.stick_radius >= (1.0 - AT_EDGE) * a;
         Self {
             corner,

@@ -11,9 +11,9 @@ use serde::Serialize;
 use std::io;
 use stickslip_quantity::{Columns, Real, columns};
 
-/// File with all numbers. It is written last and has row counts and SHA-256 of the tables.
+/// Name of the file with all numbers. This file is written last and contains the row counts and SHA-256 of the tables.
 pub const CONTACT: &str = "contact.json";
-/// Tables. `contact: history.csv` is written as `history.csv`.
+/// Columns of the tables. The documentation name `contact: history.csv` stands for the file `history.csv`.
 pub const TABLES: [Columns; 6] = [
     columns::CONTACT_HISTORY,
     columns::CONTACT_FIELDS,
@@ -30,7 +30,7 @@ pub fn table_files() -> [&'static str; 6] {
     TABLES.map(|table| table.file.trim_start_matches("contact: "))
 }
 
-/// Files and notes in addition to the tables.
+/// Plots, files to be deleted and notes that are written together with the tables.
 #[derive(Debug, Default)]
 pub struct Beside<'a> {
     /// Names and contents of plots.
@@ -101,13 +101,13 @@ struct TableReport {
     sha256: String,
 }
 
-/// Returns all numbers in one line of JSON. The curves are included only without a history.
+/// Returns all numbers in one line of JSON. The curves are included only if there is no load history.
 pub fn json(constants: &Constants, walk: Option<&Walk>) -> String {
     let (constants, corners) = match walk {
         Some(walk) => (&constants.without_curves(), corners(walk)),
         None => (constants, Vec::new()),
     };
-    // Numbers and strings only: serialisation cannot fail.
+    // Serialisation of numbers and strings cannot fail.
     let report = Report { constants, corners, tables: Vec::new(), files: Vec::new(), notes: Vec::new() };
     serde_json::to_string(&report).unwrap_or_default()
 }
@@ -116,12 +116,11 @@ fn corners(walk: &Walk) -> Vec<CornerReport> {
     walk.moments.iter().map(|moment| CornerReport::of(&moment.stop)).collect()
 }
 
-/// Writes the tables, the plots and `contact.json` into a folder. Deletes files of an earlier call that are not among
-/// them. Returns the names.
+/// Writes the tables, the plots and `contact.json` into a folder. Deletes files of an earlier call that are not written again. Returns the
+/// names of the written files.
 ///
 /// # Errors
-/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
-/// names.
+/// Error of the operating system. Existing files remain unchanged, unless the error occurs while the new files are renamed.
 pub fn write(
     mut folder: Folder,
     constants: &Constants,

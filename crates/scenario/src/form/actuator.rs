@@ -1,4 +1,4 @@
-//! Piezo stacks: what they are, what they follow, and what drives them.
+//! Keys of piezo stacks: data of the stack, commanded stroke or voltage, driver, hysteresis and creep.
 
 use super::{CreepForm, DirectionForm, HysteresisForm, Moving, Points, Two};
 use crate::quantity::{

@@ -1,4 +1,4 @@
-//! What else acts on bodies: springs, loads, gravity.
+//! Keys of springs, loads and gravity.
 
 use super::{Moving, PointForm, Points, Two};
 use crate::quantity::{Acceleration, Angle, Damping, Force, Stiffness, dimension};

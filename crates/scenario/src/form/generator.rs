@@ -1,4 +1,4 @@
-//! Generators: waveforms made inside, whose parameters a caller commands.
+//! Keys of generators: waveforms of cycles whose parameters a calling program commands during the run.
 
 use super::Count;
 use super::input::Bounds;

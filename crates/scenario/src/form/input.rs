@@ -1,4 +1,4 @@
-//! Inputs: waveforms that a caller gives.
+//! Keys of inputs: waveforms whose values a calling program supplies during the run.
 
 use crate::quantity::AnyQuantity;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};

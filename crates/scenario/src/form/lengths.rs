@@ -1,4 +1,4 @@
-//! One length for all entries of a list, or one each.
+//! Key with one length for all entries of another list, or with one length for each entry.
 
 use crate::quantity::Length;
 use crate::schema::above_zero;
@@ -9,12 +9,12 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
-/// One length for all, or one each.
+/// One length for all entries of another list, or one length for each entry.
 #[derive(Debug, Clone)]
 pub(crate) enum Lengths {
-    /// The same for all.
+    /// One length for all entries.
     All(Length),
-    /// One each.
+    /// One length for each entry.
     Each(Vec<Length>),
 }
 

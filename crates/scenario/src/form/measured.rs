@@ -1,4 +1,4 @@
-//! Profiles by points and lines, written out or in a file.
+//! Keys of profiles given by points or heights, in the scenario itself or in a file.
 
 use super::{Count, RecipeForm};
 use crate::quantity::{Force, Length};
@@ -157,7 +157,7 @@ fn no_seed() -> Count {
     Count(0)
 }
 
-/// Two quantities in brackets.
+/// Defines the type of a pair of quantities, which the file gives as a list of two entries.
 macro_rules! pair {
     ($(#[$doc:meta])* $name:ident($first:ty, $second:ty), $expected:literal, $described:literal, $example:expr) => {
         $(#[$doc])*

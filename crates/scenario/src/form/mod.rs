@@ -1,4 +1,4 @@
-//! The file's form: what may stand where, before anybody asks what it means. The doc comments become the schema.
+//! Types that mirror the keys of a scenario file. Their doc comments become the descriptions of the schema.
 
 mod actuator;
 mod body;
@@ -69,7 +69,7 @@ pub(crate) struct Form {
     /// Address of the JSON Schema for editors; nothing by default. The program ignores it.
     #[serde(rename = "$schema", default, skip_serializing)]
     #[schemars(example = &"../schema/scenario-1.json")]
-    #[expect(dead_code, reason = "the key is allowed, and of no meaning here")]
+    #[expect(dead_code, reason = "the key is allowed but ignored")]
     pub(crate) schema: Option<String>,
     /// Version of the scenario format.
     #[schemars(extend("const" = 1), example = 1)]

@@ -1,4 +1,4 @@
-//! What is written down.
+//! Keys of the output tables of a run.
 
 use super::{Count, EventsOutputForm, StatesForm, StepsOutputForm, WindowForm};
 use crate::quantity::{Length, Time};

@@ -1,4 +1,4 @@
-//! What all periodic waveforms share: when they run, and in which bursts.
+//! Keys that all periodic waveforms have: period, phase, delay, cycles, bursts and sequences.
 
 use super::Count;
 use crate::quantity::{Angle, AnyQuantity, Frequency, Time};
@@ -48,7 +48,7 @@ pub(super) fn is_false(value: &bool) -> bool {
     !value
 }
 
-/// What all periodic waveforms share.
+/// Values of the keys that all periodic waveforms have.
 #[derive(Debug, Clone)]
 pub(crate) struct Periodic {
     pub(crate) period: Option<Time>,
@@ -60,7 +60,7 @@ pub(crate) struct Periodic {
     pub(crate) sequence: Option<Vec<SectionForm>>,
 }
 
-// Written out in every waveform: serde's `flatten` would lose the places of errors.
+// The keys are repeated in every waveform, because serde's `flatten` would lose the positions of errors.
 macro_rules! periodic {
     ($(#[$meta:meta])* $name:ident { $($(#[$field_meta:meta])* $field:ident: $type:ty,)* }) => {
         #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]

@@ -1,4 +1,4 @@
-//! Small values: whole numbers, pairs of names, keys kept for later versions.
+//! Values of simple keys: whole numbers and pairs of names.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Visitor};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
-/// A whole number; `1e9` counts as one.
+/// Whole number; floating-point notation such as `1e9` is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Count(pub(crate) u64);
 
@@ -31,7 +31,7 @@ impl<'de> Deserialize<'de> for Count {
             }
 
             fn visit_f64<E: de::Error>(self, value: f64) -> Result<Count, E> {
-                // 2⁵³: the last whole number up to which every one has a floating-point number of its own.
+                // 2⁵³: up to this limit every whole number is a floating-point number.
                 if (0.0..=9_007_199_254_740_992.0).contains(&value) && value.fract() == 0.0 {
                     return Ok(Count(value as u64));
                 }

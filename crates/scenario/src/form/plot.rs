@@ -1,4 +1,4 @@
-//! Pictures that are asked for: by name, or curves of one's own.
+//! Keys of plots: predefined plots by name, and user-defined plots.
 
 use crate::PlotName;
 use crate::quantity::Time;
@@ -41,12 +41,12 @@ pub(crate) struct OwnPlotForm {
 #[derive(Debug, Clone)]
 pub(crate) struct ChannelsForm {
     pub(crate) names: Vec<String>,
-    /// Whether they are in a list.
+    /// Whether the file gives the channels as a list.
     pub(crate) is_list: bool,
 }
 
 impl PlotForm {
-    /// The name of the picture; all of one's own have one.
+    /// Returns the name of the plot; all user-defined plots have the same name.
     pub(crate) fn name(&self) -> PlotName {
         match self {
             Self::Named(name) => *name,

@@ -26,7 +26,7 @@ fn no_length() -> Length {
     Length::new(0.0)
 }
 
-// By hand: whoever writes a list [x, z] is told how a point is written.
+// Deserialized by hand, so that a list [x, z] gives an error that shows how to write a point.
 impl<'de> Deserialize<'de> for PointForm {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct PointVisitor;

@@ -59,7 +59,7 @@ pub(crate) enum ProfileForm {
 }
 
 impl ProfileForm {
-    /// The word for the kind, as in the file.
+    /// Returns the key of the profile kind, as in the file.
     pub(crate) fn word(&self) -> &'static str {
         match self {
             Self::Flat(_) => "flat",
@@ -118,7 +118,7 @@ struct BallKeys {
     diameter: Option<Length>,
 }
 
-/// The radius, given as such or by the diameter.
+/// Returns the radius, given directly or as a diameter.
 fn radius<E: de::Error>(radius: Option<Length>, diameter: Option<Length>) -> Result<Length, E> {
     match (radius, diameter) {
         (Some(radius), None) => Ok(radius),

@@ -1,4 +1,4 @@
-//! How a scene is run.
+//! Keys of a run: duration, initial state, time integration and limits.
 
 use super::Count;
 use crate::quantity::{Storage, Time};
@@ -82,7 +82,7 @@ pub(crate) enum StepperForm {
 }
 
 impl StepperForm {
-    /// The stepper asked for, its number not yet checked.
+    /// Returns the time integrator that the keys select. Its parameters are not checked yet.
     pub(crate) fn asked(&self) -> Stepper {
         match self {
             Self::Event(form) => Stepper::Event { tolerance: form.tolerance },

@@ -1,4 +1,4 @@
-//! Shapes of waveforms that come by themselves, each with its own keys.
+//! Keys of the waveform shapes, such as sawtooth, sine and chirp.
 
 use super::periodic::{BurstForm, Periodic, SectionForm, is_no_value, no_angle, no_time, no_value, periodic};
 use crate::quantity::{Angle, AnyQuantity, Frequency, Time};

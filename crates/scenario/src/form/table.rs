@@ -1,4 +1,4 @@
-//! Tables: waveforms by points, written out or in a file.
+//! Keys of waveforms given by points, in the scenario itself or in a file.
 
 use super::periodic::{is_false, no_time, no_value};
 use crate::quantity::{AnyQuantity, Time};

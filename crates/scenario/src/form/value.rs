@@ -1,4 +1,4 @@
-//! Values that take more than one shape: a quantity or a waveform, a map that keeps its order.
+//! Values that may have several forms: a quantity or a waveform, a waveform or its name, and named parts in the order of the file.
 
 use super::WaveformForm;
 use crate::quantity::{Dimension, Quantity};
@@ -14,7 +14,7 @@ use std::collections::HashMap;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Named parts in the order of the file, and the place of each name: references are looked up by the thousand.
+/// Named parts in the order of the file, with an index by name for fast look-up.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Parts<T>(pub(crate) Vec<(String, T)>, HashMap<String, usize>);
 
@@ -31,7 +31,7 @@ impl<T> Parts<T> {
         self.0.iter().map(|(name, part)| (name.as_str(), part))
     }
 
-    /// Adds a part with a name of its own.
+    /// Adds a part under a new name.
     pub(crate) fn add(&mut self, name: String, part: T) {
         self.1.insert(name.clone(), self.0.len());
         self.0.push((name, part));
@@ -67,7 +67,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Parts<T> {
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Parts<T>, A::Error> {
                 let (mut parts, mut places) = (Vec::new(), HashMap::new());
                 while let Some((name, part)) = map.next_entry::<String, T>()? {
-                    // A name that is there twice was refused with the text.
+                    // Duplicate names were reported when the text was parsed.
                     places.entry(name.clone()).or_insert(parts.len());
                     parts.push((name, part));
                 }
@@ -157,7 +157,7 @@ struct Follows {
     follows: WaveformRef,
 }
 
-/// A quantity that may vary in time. A bare string is always a quantity.
+/// Quantity that may vary in time. In the file, a bare string is always a quantity, never the name of a waveform.
 #[derive(Debug, Clone)]
 pub(crate) enum Moving<D> {
     Constant(Quantity<D>),

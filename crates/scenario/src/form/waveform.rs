@@ -1,4 +1,4 @@
-//! Waveforms: prescribed courses in time.
+//! Keys of waveforms, prescribed functions of time.
 
 use super::shapes::{
     ChirpForm, CycloidForm, HarmonicsForm, ParabolaForm, SCurveForm, SawtoothForm, SineForm, StepForm,
@@ -62,7 +62,7 @@ pub(crate) enum WaveformForm {
 }
 
 impl WaveformForm {
-    /// The word of a periodic waveform and what all of them share; none of what has no period.
+    /// Returns the key of a periodic waveform and the values that all periodic waveforms have; `None` for waveforms without a period.
     pub(crate) fn periodic(&self) -> Option<(&'static str, Periodic)> {
         match self {
             Self::Sawtooth(form) => Some(("sawtooth", form.periodic())),

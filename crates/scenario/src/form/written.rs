@@ -1,4 +1,4 @@
-//! Which of the rows and events are written, and how.
+//! Keys that select the rows and events to write, and their format.
 
 use super::Count;
 use crate::quantity::Time;
@@ -11,7 +11,7 @@ use serde_json::json;
 use std::borrow::Cow;
 use std::fmt;
 
-/// Which events are written: all, off, or some of them.
+/// Events to write: all, none (`off`), or a selection.
 #[derive(Debug, Clone)]
 pub(crate) enum EventsOutputForm {
     All,
@@ -98,7 +98,7 @@ pub(crate) enum StatesForm {
 }
 
 impl StatesForm {
-    #[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
+    #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes the field by reference")]
     pub(crate) fn is_words(&self) -> bool {
         *self == Self::Words
     }
@@ -116,14 +116,14 @@ pub(crate) enum StepsOutputForm {
 }
 
 impl StepsOutputForm {
-    #[allow(clippy::trivially_copy_pass_by_ref, reason = "the serialiser asks by reference")]
+    #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes the field by reference")]
     pub(crate) fn is_all(&self) -> bool {
         *self == Self::All
     }
 }
 
 impl KindForm {
-    /// The word in `events.csv`.
+    /// Returns the name of the event kind, as in `events.csv`.
     pub(crate) fn name(self) -> &'static str {
         use stickslip_drive::EventKind as Kind;
         let kind = match self {

@@ -72,7 +72,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Returns the stroke per volt of a named waveform, m/V, or `None` if it is no voltage of an actuator.
+    /// Returns the stroke per volt of a named waveform, m/V; `None` if the waveform is not the voltage of an actuator.
     pub(super) fn gain(&self, waveform: &str) -> Option<f64> {
         let commands = |actuator: &ActuatorForm| match &actuator.voltage {
             Some(Moving::Follows(WaveformRef::Name(name))) => name == waveform,
@@ -173,7 +173,7 @@ impl Builder<'_> {
         self.commanded(&at.key("voltage"), voltage, gain)
     }
 
-    /// Returns a voltage as free stroke. A waveform for stacks of different strokes per volt is added once for each.
+    /// Returns a voltage as free stroke. A waveform that drives stacks with different strokes per volt is added once for each value.
     fn commanded(
         &mut self,
         at: &At<'_>,

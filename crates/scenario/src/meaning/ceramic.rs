@@ -22,9 +22,9 @@ pub struct Ceramic {
     pub hysteresis: Option<Hysteresis>,
     /// Creep.
     pub creep: Option<Creep>,
-    /// Whether the command passes the inverses of both before the driver.
+    /// Whether inverse models of hysteresis and creep correct the command before the driver.
     pub compensated: bool,
-    /// Whether both have no effect, because the driver controls the charge.
+    /// Whether hysteresis and creep have no effect, because the driver controls the charge.
     pub idle: bool,
 }
 
@@ -95,7 +95,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns the stroke for which a relative loop width is defined: given, of the data sheet, or that of the command.
+    /// Returns the stroke for which a relative loop width is defined: the given stroke, or that of the data sheet, or that of the command.
     fn loop_stroke(&self, at: &At<'_>, i: usize, form: &LoopForm) -> Result<f64, Fault> {
         if let Some(stroke) = form.stroke {
             return range::above_zero(&at.key("stroke"), stroke);
@@ -242,7 +242,7 @@ pub(super) fn reach(scene: &Scene, signal: usize) -> (f64, f64) {
     block.range(&block.inputs().iter().map(of).collect::<Vec<_>>())
 }
 
-/// Returns a signal at t = 0.
+/// Returns value and derivatives of a signal at t = 0.
 pub(super) fn first(scene: &Scene, signal: usize) -> Sample {
     let Some(k) = signal.checked_sub(scene.waveforms.len()) else {
         return scene.waveforms[signal].part.first();

@@ -46,7 +46,7 @@ fn data_sheet(at: &At<'_>, form: &DataSheetForm) -> Result<DataSheet, Fault> {
     })
 }
 
-/// Returns an optional quantity above zero.
+/// Returns an optional quantity, checked to be above zero.
 fn positive<D: Dimension>(
     at: &At<'_>,
     key: &'static str,

@@ -44,9 +44,9 @@ use stickslip_drive::{Model, Plan, Scene, SceneError};
 /// Waveform and body that define the periods and steps of the results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Figures {
-    /// Index in [`Scene::waveforms`]. `None` if none is named and there is not exactly one waveform.
+    /// Index in [`Scene::waveforms`] of the named waveform, or of the only waveform; `None` if there is neither.
     pub waveform: Option<usize>,
-    /// Index in [`Scene::bodies`]. `None` if none is named and there is no unique candidate.
+    /// Index in [`Scene::bodies`] of the named body, or of the only candidate; `None` if there is neither.
     pub body: Option<usize>,
 }
 
@@ -72,7 +72,7 @@ pub(crate) struct Meaning {
 struct Builder<'a> {
     form: &'a Form,
     scene: Scene,
-    /// Data of the waveforms that the model does not contain.
+    /// Data of each waveform in addition to those in the model.
     courses: Vec<Course>,
     /// Number of terms of all sums of sines so far.
     terms: usize,
@@ -88,7 +88,7 @@ struct Course {
     kind: Option<Kind>,
     /// Delay, s.
     delay: f64,
-    /// Stroke per volt of the stack whose voltage this waveform is, m/V. The values in the model are strokes.
+    /// Stroke per volt of the stack that this waveform of voltages drives, m/V. The model contains the waveform as strokes.
     gain: Option<f64>,
 }
 

@@ -73,7 +73,7 @@ fn check_columns(form: &Form) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Returns the error for a reference to an unknown part. `what` is the kind of part, `section` its section.
+/// Returns the error for a reference to an unknown part. `what` is the kind of part, `section` the section of the file with such parts.
 pub(super) fn unknown<T>(
     at: &At<'_>,
     (what, section): (&str, &'static str),
@@ -112,7 +112,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Adds the ground to the suggestions and excludes the other end.
+    /// Adds the ground to the suggested names of one end of a part, and excludes the body at the other end.
     fn or_ground(&self, mut fault: Fault, name: &str, other: &str) -> Fault {
         let names = || self.form.bodies.names().chain([GROUND]);
         let free = || names().filter(|name| *name != other);

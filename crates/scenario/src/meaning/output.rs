@@ -13,7 +13,7 @@ use stickslip_drive::{Moments, Plan, Waveform};
 
 /// Maximum number of springs written per contact.
 const MAX_COUNT: u64 = 1_000_000;
-/// Maximum number of radii. The friction work is integrated at each of them along every path.
+/// Maximum number of radii. The friction work is integrated at each radius along every path.
 const MAX_RADII: u64 = 10_000;
 /// Number of samples of the spring states in a run without rows.
 const STATES: f64 = 400.0;

@@ -6,12 +6,12 @@ use crate::form::{BurstForm, Periodic, SectionForm};
 use crate::path::At;
 use stickslip_drive::{Section, Shape};
 
-/// Maximum number of cycles of all runs together.
+/// Maximum number of cycles of all runs in a sequence.
 const MOST_CYCLES: u64 = 10_000;
-/// Maximum number of runs and rests.
+/// Maximum number of entries of a sequence, which are runs of cycles or rests.
 const MOST_SECTIONS: usize = 1000;
 
-/// Returns the runs and rests of a waveform with this period, s, or `None` if it runs without rests.
+/// Returns the runs and rests of a waveform with this period, s, or `None` if the waveform has no rests.
 pub(super) fn sections(at: &At<'_>, form: &Periodic, period: f64) -> Result<Option<Vec<Section>>, Fault> {
     match (&form.burst, &form.sequence) {
         (None, None) => Ok(None),

@@ -21,7 +21,7 @@ impl Builder<'_> {
         Ok(points)
     }
 
-    /// Returns the error for a point on a body that is not one of the two.
+    /// Returns the error for a point on a body that is not one of the two bodies of the part.
     fn stranger(&self, at: &At<'_>, name: &str, between: &Two) -> Fault {
         let sides = ["contacts.*.between", "springs.*.between", "actuators.*.between"];
         let shown = crate::document::shown(name);

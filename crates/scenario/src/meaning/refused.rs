@@ -58,7 +58,7 @@ fn follow(fault: Fault, scene: &Scene, value: Varying) -> Fault {
     }
 }
 
-/// Returns the error with its message.
+/// Converts an error of the model to an error with a message for the file.
 fn worded(scene: &Scene, path: KeyPath, error: &SceneError) -> Fault {
     match &error.fault {
         SceneFault::NotAboveZero(_) => {

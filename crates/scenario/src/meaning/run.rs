@@ -32,7 +32,7 @@ pub(super) fn duration(form: &Form) -> &'static [&'static str] {
 }
 
 impl Builder<'_> {
-    /// Returns the evaluated waveform and body: the ones named in `figures`, otherwise unique candidates.
+    /// Returns the evaluated waveform and body: as named in `figures`, otherwise unique candidates.
     pub(super) fn figures(&self) -> Result<Figures, Fault> {
         let form = &self.form.figures;
         let root = At::ROOT;

@@ -19,7 +19,7 @@ const MAX_TERMS: usize = 1000;
 /// Dimension of the values of one waveform, which must agree in all its quantities.
 pub(super) struct Values<'a> {
     pub(super) kind: Option<Kind>,
-    /// Factor of the values: the stroke per volt of the stack whose voltage they are, m/V; otherwise 1.
+    /// Factor of the values: for voltages the stroke per volt of the driven stack, m/V; otherwise 1.
     gain: f64,
     /// Position of the waveform.
     at: At<'a>,
@@ -31,12 +31,12 @@ impl Values<'_> {
         self.at.path()
     }
 
-    /// Converts a rate in the file to that in the model.
+    /// Converts a rate of change in the file to the rate in the model.
     pub(super) fn scaled(&self, rate: f64) -> f64 {
         self.gain * rate
     }
 
-    /// Converts a rate in the model to that in the file.
+    /// Converts a rate of change in the model to the rate in the file.
     pub(super) fn unscaled(&self, rate: f64) -> f64 {
         rate / self.gain
     }

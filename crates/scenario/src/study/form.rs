@@ -1,4 +1,4 @@
-//! The form of a study file: what may stand where. The doc comments become the schema.
+//! Types that mirror the keys of a study file. Their doc comments become the descriptions of the schema.
 
 use crate::form::{Count, Parts};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -16,7 +16,7 @@ pub(crate) struct StudyForm {
     /// Address of the JSON Schema for editors; nothing by default. The program ignores it.
     #[serde(rename = "$schema", default)]
     #[schemars(example = &"../schema/study-1.json")]
-    #[expect(dead_code, reason = "the key is allowed, and of no meaning here")]
+    #[expect(dead_code, reason = "the key is allowed but ignored")]
     pub(super) schema: Option<String>,
     /// Version of the study format.
     #[schemars(extend("const" = 1), example = 1)]

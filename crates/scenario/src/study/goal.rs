@@ -53,7 +53,7 @@ pub struct Shaped {
     pub slew: Option<[f64; 2]>,
     /// Highest frequency, Hz.
     pub bandwidth: Option<f64>,
-    /// Factor from the waveform's values to those in the model: the stroke per volt of a stack, m/V, or 1.
+    /// Factor from the waveform's values to the values in the model: the stroke per volt of a stack, m/V, or 1.
     pub gain: f64,
     /// SI unit of the values.
     pub unit: &'static str,

@@ -11,10 +11,10 @@ use crate::System;
 pub(super) type Polynomial = [f64; 8];
 
 impl DormandPrince {
-    /// Computes the dense output of the step attempted, unless it is known. Costs three evaluations, and one more if the end
-    /// slopes are unknown.
+    /// Computes the dense output of the attempted step, unless already known. Costs three evaluations, and one more if the slopes at the
+    /// end are unknown.
     ///
-    /// The first four coefficients are the cubic through both ends with their slopes. Three more stages raise it to order 7.
+    /// The first four coefficients are the cubic Hermite interpolant of both ends. Three more stages raise the order to 7.
     pub(super) fn interpolate<S: System + ?Sized>(&mut self, system: &S) {
         if self.dense_known {
             return;
@@ -80,7 +80,7 @@ impl DormandPrince {
         }
     }
 
-    /// Writes all components at time `t` (s) of the step by the dense output; NaN without dense output.
+    /// Writes all components at time `t` (s) of the step into `out`, by the dense output. Without dense output all values are NaN.
     pub fn values(&self, t: f64, out: &mut [f64]) {
         if !self.dense_known {
             out.fill(f64::NAN);
@@ -92,7 +92,7 @@ impl DormandPrince {
         }
     }
 
-    /// Returns the time derivative of component `i` at time `t` (s) by the dense output (order 6); NaN without dense output.
+    /// Returns the time derivative of component `i` at time `t` (s) by the dense output (order 6). Without dense output it is NaN.
     #[must_use]
     #[inline]
     pub fn rate(&self, i: usize, t: f64) -> f64 {
@@ -106,7 +106,7 @@ impl DormandPrince {
         self.polynomials.get(i).filter(|_| self.dense_known)
     }
 
-    /// Returns σ at time `t` (s) of the step attempted, exactly 0 and 1 at its ends.
+    /// Returns the stage variable σ at time `t` (s) of the attempted step, exactly 0 and 1 at its ends.
     #[inline]
     pub(super) fn fraction(&self, t: f64) -> f64 {
         // A division may miss 1 by rounding; the value there would differ from the accepted state.
@@ -121,14 +121,14 @@ impl DormandPrince {
     }
 }
 
-/// Returns the value of the nested form at s.
+/// Returns the value of the dense-output polynomial at s.
 #[inline]
 pub(super) fn value(c: &Polynomial, s: f64) -> f64 {
     let r = 1.0 - s;
     c[0] + s * (c[1] + r * (c[2] + s * (c[3] + r * (c[4] + s * (c[5] + r * (c[6] + s * c[7]))))))
 }
 
-/// Returns the derivative of the nested form by s, from the innermost bracket outwards.
+/// Returns the derivative of the dense-output polynomial with respect to s, from the innermost bracket outwards.
 #[inline]
 fn rate(c: &Polynomial, s: f64) -> f64 {
     let r = 1.0 - s;

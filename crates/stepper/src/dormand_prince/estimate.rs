@@ -1,4 +1,4 @@
-//! Error estimate, and length of the first step.
+//! Error estimate of a step, and length of the first step.
 
 use super::order5::Error4;
 use super::order8::{Error3, Error5};
@@ -37,14 +37,14 @@ impl DormandPrince {
         step.min(100.0 * trial).min(longest)
     }
 
-    /// Returns the error estimate in units of `scale`, over all components that `scale` has values for.
+    /// Returns the error estimate of the step in units of `scale`, over all components for which `scale` has a value.
     ///
-    /// The estimate of DOP853 is h e₅² / √(e₅² + 0.01 e₃²). e₅ and e₃ are maxima over the components instead of root mean squares.
+    /// The estimate of DOP853 is h e₅² / √(e₅² + 0.01 e₃²). Here e₅ and e₃ are maxima over the components, not root mean squares.
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
         if self.extent.grade == Grade::Few { self.error_of_fifth(scale) } else { self.error_of_eighth(scale) }
     }
 
-    /// Returns the embedded estimate of DOPRI5, h e₄, raised to the power 8/5 so that it is of order h⁸. e₄ is the largest component.
+    /// Returns the embedded estimate h e₄ of DOPRI5, raised to the power 8/5 to be of order h⁸. e₄ is the maximum over the components.
     fn error_of_fifth(&self, scale: &[f64]) -> f64 {
         let (mut most, mut probe) = (0.0_f64, 0.0_f64);
         for (k, scales) in self.k.iter().zip(scale.chunks(2)) {
@@ -69,7 +69,7 @@ impl DormandPrince {
         if norm > 0.0 { self.extent.step.abs() * five * (five / norm) } else { 0.0 }
     }
 
-    /// Returns the largest component of an estimate in units of `scale`, and the sum of all: the sum detects NaN.
+    /// Returns the largest component of an error estimate in units of `scale`, and the sum of all components, which detects NaN.
     // One estimate per call: two at once would not be vectorised.
     #[inline(never)]
     fn largest<R: Row>(&self, scale: &[f64]) -> [f64; 2] {

@@ -1,16 +1,16 @@
-//! Graded steps: steps with stages concentrated near one end, where forces vary with the square root of the time to it.
+//! Graded steps: stages are concentrated near one end, because forces vary with a power 3/2 of the time to that end.
 
-/// Distribution of the stages in a step. The stages are evenly distributed over σ from 0 to 1; the fraction of time is φ(σ).
+/// Distribution of the stages in a step. Stages are evenly distributed over a variable σ from 0 to 1; the fraction of time is φ(σ).
 ///
-/// Some forces vary with the power 3/2 of the time to a singular moment, for example where gross slip begins. Every method loses
-/// its order there. In the square root of that time the force is smooth, so a graded step keeps the order.
+/// Some forces vary with the power 3/2 of the time to a singular moment, for example where gross slip begins. Every Runge–Kutta method
+/// loses its order there. The force is smooth in the square root of that time, so a graded step keeps the order.
 // A step is graded only if the singular moment is one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Grade {
     /// φ = σ.
     #[default]
     Even,
-    /// φ = σ with few stages: the pair of order 5, for a step that an event is expected to cut.
+    /// φ = σ with few stages: the method of order 5(4), for a step that an event is expected to cut.
     Few,
     /// φ = σ²: the step begins at a singular moment.
     Start,
@@ -35,7 +35,7 @@ impl Grade {
         }
     }
 
-    /// Returns φ'(σ).
+    /// Returns the derivative φ'(σ) of the fraction of time.
     #[inline]
     pub(super) fn pace(self, s: f64) -> f64 {
         match self {
@@ -45,7 +45,7 @@ impl Grade {
         }
     }
 
-    /// Returns σ at the fraction of time `done`; `left` is 1 - `done`.
+    /// Returns σ at the fraction of time `done`. The argument `left` is 1 - `done`.
     #[inline]
     pub(super) fn fraction(self, done: f64, left: f64) -> f64 {
         match self {

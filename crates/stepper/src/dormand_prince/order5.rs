@@ -1,8 +1,8 @@
 //! Coefficients of the explicit Runge–Kutta method DOPRI5, order 5(4), by Dormand and Prince.
 //!
-//! Source: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19; dense output of order 4 and the numerical form: E.
-//! Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, sections II.4 and II.6.
-//! Ratios are rounded to the nearest double. Stage 7 is the slope at the end of the step.
+//! Source: J. R. Dormand, P. J. Prince, *J. Comput. Appl. Math.* 6 (1980) 19. Dense output of order 4 and decimal values: E. Hairer, S. P.
+//! Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, sections II.4 and II.6. Ratios are rounded to
+//! the nearest double. Stage 7 is the slope at the end of the step.
 
 use super::tableau::rows;
 
@@ -51,7 +51,7 @@ rows! {
         4 => -0.322376179245283,
         newest 5 => 0.13095238095238096
     }
-    /// Weights of the solution of order 5 minus those of the embedded solution of order 4.
+    /// Differences of the weights of the solution of order 5 and of the embedded solution of order 4.
     Error4 {
         0 => 0.0012326388888888888,
         2 => -0.0042527702905061394,

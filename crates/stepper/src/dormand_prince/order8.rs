@@ -1,12 +1,12 @@
 //! Coefficients of the explicit Runge–Kutta method DOP853.
 //!
 //! Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, section II.5
-//! (method of order 8 by Dormand and Prince with 12 stages), section II.6 (dense output of order 7) and section II.10 (estimators
-//! of order 5 and 3). The numbers are those of their program DOP853, rounded to the nearest double.
+//! (method of order 8 by Dormand and Prince with 12 stages), section II.6 (dense output of order 7) and section II.10 (estimators of order
+//! 5 and 3). The numbers are those of the authors' program DOP853, rounded to the nearest double.
 //!
-//! Stage i has the state y + h Σ a_ij k_j at the time t + c_i h; the end is y + h Σ b_i k_i. Stages 1 to 12 make the step. k₁₃ is
-//! the slope at its end; stages 14 to 16 serve the dense output. Tests compare the rows with order conditions: Σ_j a_ij = c_i, Σ
-//! b_i c_i^{q-1} = 1/q, and those of taller trees.
+//! Stage i has the state y + h Σ a_ij k_j at the time t + c_i h; the end of the step is y + h Σ b_i k_i. Stages 1 to 12 give the step. k₁₃
+//! is the slope at the end of the step; stages 14 to 16 serve the dense output. Tests compare the rows with order conditions: Σ_j a_ij =
+//! c_i, Σ b_i c_i^{q-1} = 1/q, and conditions of taller trees.
 
 use super::tableau::rows;
 
@@ -14,7 +14,7 @@ use super::tableau::rows;
 pub(super) const END: usize = 12;
 
 /// Nodes c of all stages, as fractions of the step.
-// The crate `ode_solvers` 0.6.2 has 0 as the twelfth node: its method has no order where slopes depend on time.
+// The crate `ode_solvers` 0.6.2 has 0 as the twelfth node: that method has no order where slopes depend on time.
 pub(super) const NODES: [f64; 16] = [
     0.0,
     0.05260015195876773,
@@ -129,7 +129,7 @@ rows! {
         10 => 0.20136540080403034,
         newest 11 => 0.04471061572777259
     }
-    /// Weights of the solution of order 8 minus those of the embedded solution of order 5.
+    /// Differences of the weights of the solution of order 8 and of the embedded solution of order 5.
     Error5 {
         0 => 0.01312004499419488,
         5 => -1.2251564463762044,
@@ -140,7 +140,7 @@ rows! {
         10 => 0.08192320648511571,
         newest 11 => -0.022355307863886294
     }
-    /// Weights of the solution of order 8 minus those of the embedded solution of order 3.
+    /// Differences of the weights of the solution of order 8 and of the embedded solution of order 3.
     Error3 {
         0 => -0.18980075407240762,
         5 => 4.450312892752409,

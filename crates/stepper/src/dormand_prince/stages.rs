@@ -1,4 +1,4 @@
-//! Stages and end of a step.
+//! Stages of a step, and the state at its end.
 
 use super::order5;
 use super::order8::{
@@ -10,8 +10,8 @@ use crate::{System, Target};
 
 /// Calls a stage function with the number of pairs of components as constants, so that its loops are unrolled.
 ///
-/// The pairs are those of coupled components and those of quadratures. The listed combinations cover bodies with up to five
-/// coordinates; the last arm is generic.
+/// A pair holds two coupled components or two quadratures. The listed combinations cover bodies with up to five coordinates; the last arm
+/// is generic.
 macro_rules! of_pairs {
     ($step:ident, $by:ident, $may_grade:literal, $system:ident) => {
         match ($step.stage.len() / 2, $step.k.len() - $step.stage.len() / 2) {
@@ -29,7 +29,7 @@ macro_rules! of_pairs {
 }
 
 impl DormandPrince {
-    /// Attempts a step: all stages, the end y + h Σ b_i k_i, the error.
+    /// Attempts a step: computes all stages, the end y + h Σ b_i k_i and the error estimate.
     pub(super) fn attempt_span<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -55,7 +55,7 @@ impl DormandPrince {
         self.error(scale)
     }
 
-    /// Computes the stages of DOPRI5, the end of the step and the slopes there, which are the last stage.
+    /// Computes the stages of DOPRI5, the state at the end of the step and the slopes there, which are the last stage.
     #[inline(never)]
     fn by_fifth<const PAIRS: usize, const RATES: usize, const MAY_GRADE: bool, S: System + ?Sized>(
         &mut self,
@@ -74,7 +74,7 @@ impl DormandPrince {
         self.keep::<{ order5::END }>();
     }
 
-    /// Computes the stages of DOP853 and the end of the step.
+    /// Computes the stages of DOP853 and the state at the end of the step.
     #[inline(never)]
     fn by_eighth<const PAIRS: usize, const RATES: usize, const MAY_GRADE: bool, S: System + ?Sized>(
         &mut self,
@@ -95,7 +95,7 @@ impl DormandPrince {
         self.end_by::<Weights>();
     }
 
-    /// Computes y + h Σ b_i k_i, plus the linear part that graded stages leave out.
+    /// Computes the end state y + h Σ b_i k_i, plus the linear part that graded stages leave out.
     #[inline(always)]
     fn end_by<R: Row>(&mut self) {
         let h = self.extent.step;
@@ -109,10 +109,10 @@ impl DormandPrince {
         }
     }
 
-    /// Computes one stage: stores the newest slope, combines all slopes so far, and evaluates at the stage's node.
+    /// Computes one stage: stores the newest slope, combines all slopes so far, and evaluates the system at the node of the stage.
     ///
-    /// `PAIRS` is the number of pairs of coupled components and `RATES` that of quadratures; 0 means any number. Without
-    /// `MAY_GRADE` the step is even.
+    /// `PAIRS` is the number of pairs of coupled components, and `RATES` is the number of pairs of quadratures; 0 means any number. Without
+    /// `MAY_GRADE` the stages are evenly distributed in time.
     #[inline(always)]
     pub(super) fn stage<
         R: Row,
@@ -171,7 +171,7 @@ impl DormandPrince {
         }
     }
 
-    /// Converts the newest slopes to derivatives by σ without the linear part: φ'(σ) (f - f₀).
+    /// Converts the newest slopes f to derivatives with respect to σ without the linear part: φ'(σ) (f - f₀).
     #[inline(always)]
     pub(super) fn pace(&mut self, pace: f64) {
         if !self.extent.grade.is_even() {
@@ -182,7 +182,7 @@ impl DormandPrince {
         }
     }
 
-    /// Stores the newest slopes as those of stage `J`.
+    /// Stores the newest slopes as the slopes of stage `J`.
     #[inline(always)]
     pub(super) fn keep<const J: usize>(&mut self) {
         for (k, slopes) in self.k.iter_mut().zip(pairs_of(&self.newest)) {
@@ -190,7 +190,7 @@ impl DormandPrince {
         }
     }
 
-    /// Makes the slopes at the start the newest ones; a rejected attempt leaves those of another stage.
+    /// Makes the slopes at the start the newest slopes, because a rejected attempt leaves slopes of another stage.
     fn recall_first(&mut self) {
         self.newest.copy_from_slice(&self.ends.first);
         self.pace(self.extent.grade.pace(0.0));

@@ -1,16 +1,16 @@
 //! Rows of coefficients of an explicit Runge–Kutta method.
 //!
-//! A row is a sparse linear form of the slopes k₁ … k₁₆ (indices 0 … 15). It compiles to one sum without a loop or a bounds
-//! check. The newest slope is separate: the rest can be summed during its evaluation.
+//! A row is a sparse linear form of the slopes k₁ … k₁₆ (indices 0 … 15). A row compiles to one sum without a loop or a bounds check. The
+//! newest slope is a separate term: the other terms can be summed while the slope is evaluated.
 
 use std::ops::{Add, Mul, Sub};
 
-/// Two components that SIMD instructions process together. Each result has the same bits as alone.
+/// Two components that SIMD instructions process together, with the same bits as separate processing.
 // The stages of six components need 13 % fewer instructions in pairs.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Pair(pub(super) [f64; 2]);
 
-/// Sixteen slopes of two components: twelve stages, the end, and three stages of the dense output.
+/// Sixteen slopes of two components: twelve stages, the end of the step, and three stages of the dense output.
 pub(super) type Slopes = [Pair; 16];
 
 impl Add for Pair {
@@ -42,13 +42,13 @@ impl Mul<Pair> for f64 {
     }
 }
 
-/// Splits components into pairs; their number must be even.
+/// Splits components into pairs; the number of components must be even.
 #[inline(always)]
 pub(super) fn pairs_of(components: &[f64]) -> &[[f64; 2]] {
     components.as_chunks().0
 }
 
-/// Linear form of the slopes, split at the newest one.
+/// Linear form of the slopes, with a separate term for the newest slope.
 pub(super) trait Row {
     /// Index of the newest slope.
     const NEWEST: usize;
@@ -58,10 +58,10 @@ pub(super) trait Row {
     #[cfg(test)]
     const TERMS: &'static [(usize, f64)];
 
-    /// Returns the value of the form without the newest slope.
+    /// Returns the value of the linear form without the newest slope.
     fn rest(k: &Slopes) -> Pair;
 
-    /// Returns the value of the form.
+    /// Returns the value of the linear form.
     #[inline(always)]
     fn dot(k: &Slopes) -> Pair {
         Self::rest(k) + Self::LAST * k[Self::NEWEST]

@@ -1,22 +1,22 @@
-//! Accurate states inside a step, by a separate step to the moment.
+//! Accurate states inside a step, by a separate step from its start to the requested time.
 //!
-//! If a component decays several times within a step, the dense output oscillates between the ends. Its error can exceed ten
-//! times that of the end. A separate step from the same start does not have this error.
+//! If a component decays several times within a step, the dense output oscillates between the ends. The error of the dense output can
+//! exceed ten times the error at the end. A separate step from the same start does not have this error.
 
 use super::{DormandPrince, Grade};
 use crate::{System, Target};
 use std::ops::Range;
 
 impl DormandPrince {
-    /// Creates the stepper for moments inside the step, unless it exists.
+    /// Creates the stepper for times inside the step, unless the stepper exists.
     pub(super) fn invite(&mut self) {
         if self.visitor.is_none() {
             self.visitor = Some(Box::new(self.clone()));
         }
     }
 
-    /// Writes all components at time `t` inside the step into `out`. Returns false without a result at the ends, for a parabola,
-    /// and where the separate step fails.
+    /// Writes all components at time `t` inside the step into `out`. Returns false without a result at the ends, for constant
+    /// accelerations, and where the separate step fails.
     pub(super) fn visit_inside<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -41,7 +41,7 @@ impl DormandPrince {
         found
     }
 
-    /// Replaces the given components at the end of a cut step by those of a separate step up to there.
+    /// Replaces the given components at the end of a cut step by the result of a separate step to that end.
     pub(super) fn settle_cut<S: System + ?Sized>(
         &mut self,
         system: &S,

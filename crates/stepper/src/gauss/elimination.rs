@@ -1,15 +1,15 @@
 //! Gaussian elimination for many right-hand sides.
 
-/// Number of values that are processed together.
+/// Number of values that are processed together (SIMD).
 const LANES: usize = 4;
 
-/// Returns the length of a row of the linear system with its right-hand sides, a multiple of the lanes.
+/// Returns the length of a row of the linear system with its right-hand sides, a multiple of [`LANES`].
 pub(super) fn wide_of(size: usize, count: usize) -> usize {
     (size + count).next_multiple_of(LANES)
 }
 
-/// Solves a linear system of order `size` with `count` right-hand sides at the end of its rows. Returns false if the matrix is
-/// singular or not finite.
+/// Solves a linear system of order `size` with `count` right-hand sides at the end of its rows. Returns false if the matrix is singular or
+/// not finite.
 pub(super) fn solve(system: &mut [f64], size: usize, count: usize, solution: &mut Vec<f64>) -> bool {
     let wide = wide_of(size, count);
     for k in 0..size {

@@ -23,11 +23,11 @@ pub(super) fn dot(a: &[f64], b: &Each) -> f64 {
 pub(super) struct Rule {
     /// Legendre polynomials at the nodes.
     values: [[f64; NODES + 1]; NODES],
-    /// Coefficients a_ij: integrals of the interpolated slopes up to each node.
+    /// Coefficients a_ij: integral of the interpolated slopes from the start to each node.
     pub(super) inner: [Each; NODES],
-    /// Weights of the Legendre coefficients 1 to 4 of a function given at the nodes.
+    /// Weights that give the Legendre coefficients 1 to 4 of a function from its values at the nodes.
     tail: [Each; NODES - 1],
-    /// All integrals of an even step of length 1.
+    /// Weights of all integrals for an even step of length 1.
     even: Reach,
 }
 
@@ -42,7 +42,7 @@ fn legendre(x: f64) -> [f64; NODES + 1] {
 }
 
 impl Rule {
-    /// Returns the weights of the slopes in their integral from -1 to x, scaled to [0, 1]: a_j = b_j Σ (2k + 1) P_k(c_j) ∫P_k.
+    /// Returns the weights of the slopes in the integral from -1 to x, scaled to [0, 1]: a_j = b_j Σ (2k + 1) P_k(c_j) ∫P_k.
     pub(super) fn row(&self, x: f64) -> Each {
         let ends = legendre(x);
         let integral = |k: usize| if k == 0 { x + 1.0 } else { ends[k + 1] - ends[k - 1] };
@@ -63,13 +63,13 @@ pub(super) static RULE: LazyLock<Rule> = LazyLock::new(|| {
     rule
 });
 
-/// Weights of the slopes in their single and double time integrals, up to each node and to the end.
+/// Weights of the slopes in the single and double time integrals, from the start to each node and to the end of the step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Reach {
     pub(super) paces: Each,
     pub(super) once: [Each; NODES],
     pub(super) twice: [Each; NODES],
-    /// Time to each node, and of the whole step, s.
+    /// Time from the start to each node, and length of the step, s.
     pub(super) time: Each,
     pub(super) length: f64,
     pub(super) end_once: Each,
@@ -86,7 +86,7 @@ impl Reach {
         Self::by(rule, paces)
     }
 
-    /// Returns the weights of an even step that is `pace` times as long.
+    /// Returns the weights of an even step whose length is `pace` times the length of this step.
     fn times(&self, pace: f64) -> Self {
         let once = |row: &Each| row.map(|a| pace * a);
         let twice = |row: &Each| row.map(|a| pace * pace * a);

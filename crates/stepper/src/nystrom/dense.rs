@@ -1,13 +1,13 @@
 //! Dense output: Hermite–Birkhoff interpolation of accelerations at seven nodes.
 //!
-//! The polynomial through the accelerations is integrated once for velocities and twice for positions. Both are consistent, and
-//! exact at the start of the step.
+//! The interpolating polynomial of the accelerations is integrated once for velocities and twice for positions. Velocities and positions
+//! are therefore consistent, and exact at the start of the step.
 
 use super::tableau::{NODES, REFINED, REFINED_POSITIONS, SAMPLED};
 use super::{Conservative, Nystrom, Storage, Track};
 
 impl<N: Storage> Nystrom<N> {
-    /// Computes the dense output of the step attempted, unless it is known.
+    /// Computes the dense output of the attempted step, unless already known.
     pub(super) fn interpolate<S: Conservative + ?Sized>(&mut self, system: &S) {
         if self.known.dense {
             return;
@@ -22,7 +22,7 @@ impl<N: Storage> Nystrom<N> {
         self.tracks.as_mut().iter_mut().for_each(Track::interpolate);
     }
 
-    /// Evaluates the inner nodes again, because the stages there have order 4 only.
+    /// Evaluates the accelerations at the inner nodes again, because the stages there have only order 4.
     fn refine<S: Conservative + ?Sized>(&mut self, system: &S) {
         // Costs four evaluations, only in steps that need the dense output.
         let (h, n) = (self.step, self.positions());

@@ -1,11 +1,11 @@
-//! Error estimate, and length of the first step.
+//! Error estimate of a step, and length of the first step.
 
 use super::tableau::{POSITION_ERROR, STAGES, VELOCITY_ERROR};
 use super::track::dot;
 use super::{Nystrom, ORDER, Storage};
 
 impl<N: Storage> Nystrom<N> {
-    /// Returns the largest difference between both orders in units of `scale`. Positions and velocities count, and quadratures
+    /// Returns the largest difference between the solutions of both orders in units of `scale`, over positions, velocities, and quadratures
     /// for which `scale` has values.
     #[inline]
     pub(super) fn error(&self, scale: &[f64]) -> f64 {
@@ -28,8 +28,8 @@ impl<N: Storage> Nystrom<N> {
         if sum.is_finite() { largest } else { f64::INFINITY }
     }
 
-    /// Returns a first step without an evaluation: 0.01 (s/a)^{1/7} T^{6/7}. T is the largest step. s/a (s) is the shortest time
-    /// in which an initial acceleration a changes a velocity by its tolerance s.
+    /// Returns the length of a first step without an evaluation: 0.01 (s/a)^{1/7} T^{6/7}. T is the maximum step. s/a (s) is the shortest
+    /// time in which an initial acceleration a changes a velocity by its tolerance s.
     pub(super) fn starting_step(&self, longest: f64, scale: &[f64]) -> f64 {
         // Without accelerations the first step is a hundredth of the longest.
         let n = self.positions();

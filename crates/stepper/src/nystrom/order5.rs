@@ -3,16 +3,16 @@
 //! Source: E. J. Nyström, *Über die numerische Integration von Differentialgleichungen*, Acta Soc. Sci. Fennicae 50 (1925) No.
 //! 13; E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Springer 1993, table II.14.2.
 //!
-//! A step has four stages and the acceleration at its end, which the next step reuses: four evaluations, or five after a
-//! discontinuity. The dense output costs none. Positions are the polynomial of degree 5 with positions, velocities and
-//! accelerations of both ends; velocities are its derivative. Quadratures are the integral of the cubic through the rates.
+//! A step has four stages and the acceleration at its end, which the next step reuses: four evaluations, or five after a discontinuity. The
+//! dense output costs no evaluation. Positions follow the polynomial of degree 5 with positions, velocities and accelerations of both ends;
+//! velocities are its derivative. Quadratures are the integral of the cubic polynomial through the rates.
 //!
-//! The last stage is at c = 1, but its position differs from the end of the step. With the acceleration at the end in its place,
-//! the velocity has order 3. The difference of both velocities is the error estimate. For ẍ = -x the estimate is at most 8e-4 h⁴,
-//! the error of the step 5e-4 h⁶ and that of the dense output 1e-3 h⁵.
+//! The last stage is at c = 1, but its position differs from the end of the step. If the acceleration at the end replaces that of the last
+//! stage, the velocity has order 3. The difference of both velocities is the error estimate. For ẍ = -x the estimate is at most 8e-4 h⁴,
+//! the error of the step 5e-4 h⁶, and the error of the dense output 1e-3 h⁵.
 //!
-//! This estimate vanishes for rates that depend on time only, because both accelerations belong to the same time. A second
-//! estimate extrapolates the Legendre coefficients of the cubic through the stages.
+//! This estimate vanishes for rates that depend on time only, because both accelerations belong to the same time. A second estimate
+//! extrapolates the Legendre coefficients of the cubic polynomial through the rates at the stages.
 
 use super::tableau::END;
 use super::track::dot;
@@ -38,8 +38,8 @@ const POSITION: [f64; 3] = [14.0 / 336.0, 100.0 / 336.0, 54.0 / 336.0];
 /// Weights of a velocity or quadrature at the end: v + h Σ b' k.
 const VELOCITY: [f64; STAGES] = [14.0 / 336.0, 125.0 / 336.0, 162.0 / 336.0, 35.0 / 336.0];
 
-/// Coefficients of the integral of the cubic through the stage rates up to θ, divided by θ. One row per stage; at θ = 1 they sum
-/// to [`VELOCITY`].
+/// Coefficients of the integral up to θ of the cubic polynomial through the stage rates, divided by θ. Each stage has one row; the row sums
+/// are [`VELOCITY`].
 const INTEGRALS: [[f64; STAGES]; STAGES] = [
     [1.0, -15.0 / 4.0, 14.0 / 3.0, -15.0 / 8.0],
     [0.0, 125.0 / 28.0, -625.0 / 84.0, 375.0 / 112.0],
@@ -47,18 +47,18 @@ const INTEGRALS: [[f64; STAGES]; STAGES] = [
     [0.0, 1.0 / 4.0, -13.0 / 12.0, 15.0 / 16.0],
 ];
 
-/// Weights of the Legendre coefficients of degree 1, 2 and 3 of that cubic.
+/// Weights of the Legendre coefficients of degree 1, 2 and 3 of the cubic polynomial through the stage rates.
 const LEGENDRE: [[f64; STAGES]; 3] = [
     [-1.0 / 8.0, -75.0 / 112.0, 27.0 / 56.0, 5.0 / 16.0],
     [11.0 / 24.0, -125.0 / 336.0, -27.0 / 56.0, 19.0 / 48.0],
     [-3.0 / 8.0, 75.0 / 112.0, -27.0 / 56.0, 3.0 / 16.0],
 ];
 
-/// Quadrature of the Legendre polynomial of degree 5 by the weights; its exact integral is zero.
+/// Result of the quadrature with weights [`VELOCITY`] for the Legendre polynomial of degree 5, whose exact integral is zero.
 const MISSED: f64 = 0.28;
 
 impl<N: Storage> Nystrom<N> {
-    /// Computes the stages, the end of the step and the accelerations there.
+    /// Computes the stages, the state at the end of the step and the accelerations there.
     pub(super) fn step_by_fifth<S: Conservative + ?Sized>(&mut self, system: &S, end: f64) {
         let (t, h, n) = (self.time, self.step, self.positions());
         self.advance_fifth::<1, S>(system, t + NODES[1] * h);
@@ -84,10 +84,10 @@ impl<N: Storage> Nystrom<N> {
         self.evaluate(system, t, J);
     }
 
-    /// Returns the error of velocities in units of `scale`, and of quadratures for which `scale` has values.
+    /// Returns the error of velocities in units of `scale`, and of quadratures for which `scale` has a value.
     ///
-    /// The first estimate is raised to the power 7/4 and the second to 7/6, so that both are of order h⁷ as for the method of
-    /// order 8. Errors of positions are smaller by a factor h.
+    /// The first estimate is raised to the power 7/4 and the second to 7/6, so that both are of order h⁷, like the estimate of the method
+    /// of order 8. Errors of positions are smaller by a factor h.
     pub(super) fn error_of_fifth(&self, scale: &[f64]) -> f64 {
         let (h, n) = (self.step, self.positions());
         let (mut largest, mut missed, mut sum) = (0.0_f64, 0.0_f64, 0.0);
@@ -113,16 +113,16 @@ impl<N: Storage> Nystrom<N> {
 }
 
 impl Track {
-    /// Estimates the quadrature error of the mean rate from the Legendre coefficient of degree 5. That coefficient is
-    /// extrapolated from degree 3 by the decrease of the coefficients.
+    /// Estimates the quadrature error of the mean rate from the Legendre coefficient of degree 5. The decrease of the coefficients
+    /// extrapolates this coefficient from degree 3.
     fn missed(&self) -> f64 {
         let [first, second, third] = LEGENDRE.each_ref().map(|weights| dot(weights, &self.k, STAGES).abs());
         let before = first.max(second);
         if third < before { MISSED * third * (third / before) } else { MISSED * third }
     }
 
-    /// Computes the polynomial of degree 5 with position, velocity and acceleration of both ends, and its derivative. Uses
-    /// accelerations only: differences of positions would be dominated by rounding in short steps.
+    /// Computes the polynomial of degree 5 with position, velocity and acceleration of both ends, and its derivative. The computation uses
+    /// accelerations only, because rounding would dominate differences of positions in short steps.
     fn join_ends(&mut self) {
         let first = self.k[0];
         let place = dot(&POSITION, &self.k, 3) - 0.5 * first;
@@ -139,7 +139,7 @@ impl Track {
         }
     }
 
-    /// Computes the integral of the cubic through the stage rates.
+    /// Computes the integral of the cubic polynomial through the stage rates.
     fn join_stages(&mut self) {
         self.velocity = Default::default();
         for (column, rate) in INTEGRALS.iter().zip(self.k) {

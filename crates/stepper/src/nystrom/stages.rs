@@ -1,11 +1,11 @@
-//! Stages and end of a step.
+//! Stages of a step, and the state at its end.
 
 use super::tableau::{NODES, POSITIONS, STAGES, VELOCITY};
 use super::track::dot;
 use super::{Conservative, Nystrom, Storage};
 
 impl<N: Storage> Nystrom<N> {
-    /// Computes all stages up to time `end` (s) and the end of the step.
+    /// Computes all stages of a step to time `end` (s), and the state at the end of the step.
     #[inline(always)]
     pub(super) fn step_to<S: Conservative + ?Sized>(&mut self, system: &S, end: f64, few: bool) {
         if !self.known.first {
@@ -36,7 +36,7 @@ impl<N: Storage> Nystrom<N> {
         self.known.last = true;
     }
 
-    /// Evaluates the accelerations at the positions in `stage`, and stores them as those of a stage.
+    /// Evaluates the accelerations at the positions in `stage`, and stores them as the accelerations of stage number `stage`.
     #[inline(always)]
     pub(super) fn evaluate<S: Conservative + ?Sized>(&mut self, system: &S, t: f64, stage: usize) {
         system.accelerations(t, self.stage.as_ref(), self.rates.as_mut());
@@ -59,7 +59,7 @@ impl<N: Storage> Nystrom<N> {
         self.evaluate(system, t, J);
     }
 
-    /// Fills all stages under constant accelerations without an evaluation; the end is that of a parabola.
+    /// Sets all stages under constant accelerations without an evaluation; the end of the step is that of a parabola.
     #[inline(never)]
     fn advance_constant(&mut self) {
         let h = self.step;
@@ -71,7 +71,7 @@ impl<N: Storage> Nystrom<N> {
         }
     }
 
-    /// Computes the end of the step by the weights of order 8. The last stage already has its positions.
+    /// Computes the end of the step by the weights of order 8. Positions at the end are those of the last stage.
     #[inline]
     fn conclude(&mut self) {
         let (h, n) = (self.step, self.positions());

@@ -1,18 +1,18 @@
-//! Storage of a step: vectors of any length, or arrays for one component.
+//! Storage of a step: vectors of any length, or arrays for one position and one quadrature.
 
 use super::Track;
 
-/// Storage types of a [`Nystrom`](super::Nystrom) method.
+/// Types in which a [`Nystrom`](super::Nystrom) method stores its data.
 ///
-/// Most drives have one slider. Arrays of fixed size let the compiler unroll all loops over components.
+/// Most models have one slider. For such models, arrays of fixed size let the compiler unroll all loops over components.
 pub trait Storage {
-    /// One number per position.
+    /// List with one number per position.
     type Positions: Values<f64>;
-    /// One number per position and quadrature.
+    /// List with one number per position and quadrature.
     type Rates: Values<f64>;
-    /// One number per position, velocity and quadrature.
+    /// List with one number per position, velocity and quadrature.
     type State: Values<f64>;
-    /// One track per position and quadrature.
+    /// List with one [`Track`] (data of a component) per position and quadrature.
     type Tracks: Values<Track>;
 }
 
@@ -29,7 +29,7 @@ impl<T: Default + Clone + std::fmt::Debug> Values<T> for Vec<T> {
 }
 
 impl<T: Default + Copy + std::fmt::Debug, const N: usize> Values<T> for [T; N] {
-    /// Returns `N` values, whatever `count` is.
+    /// Returns `N` default values, whatever `count` is.
     fn of(_: usize) -> Self {
         [T::default(); N]
     }

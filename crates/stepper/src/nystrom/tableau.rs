@@ -3,11 +3,11 @@
 //! Source: J. R. Dormand, M. E. A. El-Mikkawy, P. J. Prince, *High-order embedded Runge–Kutta–Nyström formulae*, IMA Journal of
 //! Numerical Analysis 7 (1987) 423–430.
 //!
-//! Stage i has the position x + c_i h v + h² Σ a_ij k_j, with the accelerations k_j. The end is x + h v + h² Σ b_j k_j and v + h
-//! Σ b'_j k_j. The last stage is at the end of the step, with the weights b as its row; the next step reuses its acceleration.
-//! Fractions are those of the paper.
+//! Stage i has the position x + c_i h v + h² Σ a_ij k_j, with the accelerations k_j. The end of the step is x + h v + h² Σ b_j k_j and v +
+//! h Σ b'_j k_j. The last stage is at the end of the step, with the weights b as its row; the next step reuses its acceleration. Fractions
+//! are those of the paper.
 
-/// Number of stages; the last one is the first of the next step.
+/// Number of stages; the last stage is the first one of the next step.
 pub(super) const STAGES: usize = 9;
 /// Index of the stage at the end of the step.
 pub(super) const END: usize = 8;
@@ -64,7 +64,7 @@ pub(super) const POSITIONS: [[f64; 8]; STAGES] = [
     ],
 ];
 
-/// Weights of the velocity at the end, order 8: v + h Σ b' k.
+/// Weights of the velocity at the end of the step, order 8: v + h Σ b' k.
 pub(super) const VELOCITY: [f64; STAGES] = [
     223.0 / 7938.0,
     0.0,
@@ -77,7 +77,7 @@ pub(super) const VELOCITY: [f64; STAGES] = [
     0.0,
 ];
 
-/// Weights of the position of order 8 minus those of order 6.
+/// Weights of the position of order 8 minus weights of order 6.
 pub(super) const POSITION_ERROR: [f64; STAGES] = [
     -544307.0 / 12215700.0,
     0.0,
@@ -90,7 +90,7 @@ pub(super) const POSITION_ERROR: [f64; STAGES] = [
     0.0,
 ];
 
-/// Weights of the velocity of order 8 minus those of order 6.
+/// Weights of the velocity of order 8 minus weights of order 6.
 pub(super) const VELOCITY_ERROR: [f64; STAGES] = [
     -544307.0 / 12215700.0,
     0.0,
@@ -107,10 +107,10 @@ pub(super) const VELOCITY_ERROR: [f64; STAGES] = [
 pub(super) const SAMPLES: usize = 7;
 /// Stages at the nodes 0, 0.1, 0.3, 0.5, 0.7, 0.9 and 1 of the dense output.
 pub(super) const SAMPLED: [usize; SAMPLES] = [0, 2, 3, 4, 5, 6, END];
-/// Samples that are evaluated again, because the stages there have order 4 only.
+/// Samples at which accelerations are evaluated again, because the stages there have only order 4.
 pub(super) const REFINED: std::ops::Range<usize> = 2..6;
 
-/// Monomial coefficients of the polynomial through the samples: the inverse Vandermonde matrix of the nodes.
+/// Monomial coefficients of the polynomial through the samples, given by the inverse Vandermonde matrix of the nodes.
 // Monomials have simple integrals. The coefficients are exact fractions; their size costs three digits of the highest power.
 const MONOMIALS: [[f64; SAMPLES]; SAMPLES] = [
     [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
@@ -162,7 +162,7 @@ const MONOMIALS: [[f64; SAMPLES]; SAMPLES] = [
     ],
 ];
 
-/// Coefficients of the integral of that polynomial up to θ, divided by θ. One row per sample.
+/// Coefficients of the integral up to θ of the polynomial through the samples, divided by θ. Each sample has one row.
 pub(super) const INTEGRALS: [[f64; SAMPLES]; SAMPLES] = {
     let mut columns = [[0.0; SAMPLES]; SAMPLES];
     let mut j = 0;
@@ -177,7 +177,7 @@ pub(super) const INTEGRALS: [[f64; SAMPLES]; SAMPLES] = {
     columns
 };
 
-/// Coefficients of its double integral, divided by θ², at the refined nodes: x(θ) = x + θh(v + θh Σ w k).
+/// Coefficients of the double integral, divided by θ², at the refined nodes: x(θ) = x + θh(v + θh Σ w k).
 pub(super) const REFINED_POSITIONS: [[f64; SAMPLES]; REFINED.end - REFINED.start] = {
     let mut rows = [[0.0; SAMPLES]; REFINED.end - REFINED.start];
     let mut r = 0;

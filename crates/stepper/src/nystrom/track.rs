@@ -4,7 +4,7 @@ use super::tableau::{INTEGRALS, REFINED, SAMPLED, SAMPLES, STAGES};
 
 /// Data of one position with its velocity, or of one quadrature, during a step.
 ///
-/// The data of a component are contiguous, as sums over stages run over one component.
+/// The data of a component are contiguous in memory, because sums over stages run over one component.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Track {
     /// Position at the start of the step; unused for a quadrature.
@@ -13,7 +13,7 @@ pub struct Track {
     pub(super) v: f64,
     /// Accelerations or quadrature rates at the stages.
     pub(super) k: [f64; STAGES],
-    /// Interpolated positions at the refined nodes.
+    /// Interpolated positions at the nodes whose accelerations are evaluated again.
     pub(super) refined: [f64; REFINED.end - REFINED.start],
     /// Coefficients c of the dense output v + hθ Σ cθʲ of the velocity or quadrature.
     pub(super) velocity: [f64; SAMPLES],
@@ -22,7 +22,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// Computes the polynomials through the samples.
+    /// Computes the dense-output polynomials through the samples.
     pub(super) fn interpolate(&mut self) {
         self.velocity = [0.0; SAMPLES];
         for (column, stage) in INTEGRALS.iter().zip(SAMPLED) {

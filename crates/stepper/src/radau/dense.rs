@@ -1,14 +1,14 @@
-//! Dense output: the polynomial of degree 5 through the start and the stages.
+//! Dense output: the interpolating polynomial of degree 5 through the start and the stages.
 
 use super::Radau;
 use super::tableau::{NODES, STAGES, Stages};
 
-/// Divided differences c of a component over the start and the nodes: y₀ + s(c₀ + (s-n₀)(c₁ + (s-n₁)(c₂ + …))) with the nodes n
-/// of all stages but the last.
+/// Divided differences c of a component over the start and the nodes: y₀ + s(c₀ + (s-n₀)(c₁ + (s-n₁)(c₂ + …))), with the nodes n of all
+/// stages but the last.
 pub(super) type Polynomial = Stages;
 
 impl Radau {
-    /// Computes the dense output of the step attempted, unless it is known; needs no evaluation.
+    /// Computes the dense output of the attempted step, unless already known. Needs no evaluation.
     pub(super) fn interpolate(&mut self) {
         if self.dense_known {
             return;
@@ -24,7 +24,7 @@ impl Radau {
         self.polynomials.get(i).filter(|_| self.dense_known)
     }
 
-    /// Returns the fraction of the step attempted at time t (s), exactly 1 at its end.
+    /// Returns the fraction of the attempted step at time t (s), exactly 1 at the end of the step.
     pub(super) fn fraction(&self, t: f64) -> f64 {
         if t == self.extent.target { 1.0 } else { (t - self.extent.time) / self.extent.step }
     }
@@ -41,7 +41,7 @@ fn differences(z: &Stages) -> Polynomial {
     c
 }
 
-/// Returns the change since the start at fraction s.
+/// Returns the change of a component since the start of the step, at fraction s.
 #[inline]
 pub(super) fn rise(c: &Polynomial, s: f64) -> f64 {
     let mut value = c[STAGES - 1];
@@ -51,7 +51,7 @@ pub(super) fn rise(c: &Polynomial, s: f64) -> f64 {
     s * value
 }
 
-/// Returns the derivative of the polynomial by s.
+/// Returns the derivative of the polynomial with respect to s.
 pub(super) fn rate(c: &Polynomial, s: f64) -> f64 {
     let (mut value, mut slope) = (c[STAGES - 1], 0.0);
     for i in (0..STAGES - 1).rev() {

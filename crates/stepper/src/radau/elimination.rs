@@ -1,6 +1,6 @@
 //! Gaussian elimination with partial pivoting in fixed storage.
 
-/// Square matrix as a product of triangular matrices, row by row.
+/// Square matrix, factored into triangular matrices, row by row.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elimination {
     order: usize,

@@ -1,22 +1,22 @@
-//! Error estimate, and length of the first step.
+//! Error estimate of a step, and length of the first step.
 
 use super::Radau;
 use super::tableau::{ESTIMATE, FIRST, dot};
 use crate::System;
 
-/// Rounding of the state that the error of a quadrature must exceed, in units of the last place.
+/// Rounding error of the state that the error of a quadrature must exceed, in units of the last place.
 // The power in a piezo driver contains the difference of two voltages over a small resistance: rounding dominates it.
 const ROUNDING: f64 = 8.0;
 
 impl Radau {
-    /// Returns the error of a step in units of `scale`, infinite if it is not finite.
+    /// Returns the error of a step in units of `scale`; infinite if a result is not finite.
     ///
-    /// For coupled components it is (1 - hγJ)⁻¹ r, with the difference r = h (γ f₀ + Σ eᵢ kᵢ) of two quadratures. The inverse
-    /// filters stiff components, whose slopes f₀ are dominated by rounding. Quadratures follow from the filtered components;
-    /// rounding of the state limits their accuracy. The estimate is of order h⁶, as the error of the dense output.
+    /// For coupled components the error is (1 - hγJ)⁻¹ r, with the difference r = h (γ f₀ + Σ eᵢ kᵢ) of two quadratures. The inverse
+    /// filters stiff components, whose slopes f₀ are dominated by rounding. Errors of quadratures follow from the filtered components;
+    /// rounding of the state limits their accuracy. The estimate is of order h⁶, like the error of the dense output.
     ///
-    /// Hairer and Wanner filter the error of first steps a second time. Here the steps resolve fast decays, because the work lost
-    /// in them counts.
+    /// Hairer and Wanner filter the error of first steps a second time. Here no second filter is used: steps resolve fast decays, because
+    /// the work dissipated in them counts.
     pub(super) fn error(&mut self, scale: &[f64]) -> f64 {
         let (p, n) = (self.positions, self.dimension);
         let (m, g) = (n - p, FIRST * self.extent.step);
@@ -59,7 +59,7 @@ impl Radau {
         if probe.is_finite() { most } else { f64::INFINITY }
     }
 
-    /// Returns a first step that moves the state by a hundredth at its initial slopes, at most `longest` (s).
+    /// Returns the length of a first step, at most `longest` (s), in which the initial slopes change the state by a hundredth.
     pub(super) fn starting_step<S: System + ?Sized>(
         &mut self,
         system: &S,

@@ -6,13 +6,13 @@ use crate::System;
 // Rounding of the derivatives then limits the convergence of the simplified Newton iteration only slightly.
 const PLACES: f64 = 4096.0;
 
-/// Derivatives of the slopes of all components by the coupled components, at the start of a step.
+/// Derivatives of the slopes of all components with respect to the coupled components, at the start of a step.
 #[derive(Debug, Clone)]
 pub(super) struct Jacobian {
-    /// Entries by component and coupled component.
+    /// Matrix entries, by component and coupled component.
     entries: Vec<f64>,
     dimension: usize,
-    /// Finite difference of each coupled component.
+    /// Increment of each coupled component for the finite differences.
     differences: Vec<f64>,
     /// Slopes at the start of the step.
     pub(super) base: Vec<f64>,
@@ -42,12 +42,12 @@ impl Jacobian {
         self.known = of.known;
     }
 
-    /// Number of evaluations for one Jacobian.
+    /// Returns the number of evaluations for one Jacobian.
     pub(super) fn cost(&self) -> u64 {
         self.dimension as u64 + 1
     }
 
-    /// Computes the finite differences at time `t` (s) and state `y`.
+    /// Computes the derivatives by finite differences at time `t` (s) and state `y`.
     pub(super) fn take<S: System + ?Sized>(&mut self, system: &S, t: f64, y: &[f64]) {
         let n = self.dimension;
         self.moved.copy_from_slice(&y[..n]);
@@ -67,20 +67,20 @@ impl Jacobian {
         self.known = true;
     }
 
-    /// Returns ∂(slope of `i`)/∂(component `j`).
+    /// Returns the derivative ∂(slope of `i`)/∂(component `j`).
     #[inline]
     pub(super) fn at(&self, i: usize, j: usize) -> f64 {
         self.entries[i * self.dimension + j]
     }
 
-    /// Returns the change of slope `i` for changes of the coupled components.
+    /// Returns the change of slope `i` caused by given changes of the coupled components.
     #[inline]
     pub(super) fn along(&self, i: usize, changes: &[f64]) -> f64 {
         let row = &self.entries[i * self.dimension..(i + 1) * self.dimension];
         row.iter().zip(changes).map(|(a, change)| a * change).sum()
     }
 
-    /// Returns Σ |∂(slope of `i`)/∂(component `j`) · component `j`|, the sensitivity of a slope to relative changes of all components.
+    /// Returns Σ |∂(slope of `i`)/∂(component `j`) · component `j`|: the sensitivity of a slope to relative changes of all components.
     pub(super) fn size(&self, i: usize, y: &[f64]) -> f64 {
         let row = &self.entries[i * self.dimension..(i + 1) * self.dimension];
         row.iter().zip(y).map(|(a, y)| (a * y).abs()).sum()

@@ -1,22 +1,22 @@
-//! Solution of the stages by the simplified Newton iteration.
+//! Solution of the stage equations by the simplified Newton iteration.
 //!
-//! The unknowns are the slopes k of all coupled components except positions. Stages are w = w₀ + h A k and x = x₀ + h c v₀ + h²
-//! A² k. A correction δ satisfies [1 - h A ⊗ ∂f/∂w - h² A² ⊗ ∂f/∂x] δ = f - k, with the Jacobian at the start of the step. The
-//! iteration begins with k = 0, so that a step depends on its start only.
+//! The unknowns are the slopes k of all coupled components except positions. Stages are w = w₀ + h A k and x = x₀ + h c v₀ + h² A² k. A
+//! correction δ satisfies [1 - h A ⊗ ∂f/∂w - h² A² ⊗ ∂f/∂x] δ = f - k, with the Jacobian at the start of the step. The iteration begins
+//! with k = 0, so that the result depends on the start of the step only.
 
 use super::Radau;
 use super::tableau::{A, NODES, SQUARE, STAGES, dot};
 use crate::System;
 
-/// Largest number of corrections in one step; more mean that the step is too long.
+/// Largest number of corrections in one step. If more are needed, the step is too long.
 const CORRECTIONS: u32 = 10;
 /// Allowed remaining error of the iteration, as a fraction of the tolerance of the step.
 const LEFT: f64 = 1e-2;
-/// Corrections below this fraction of the tolerance that no longer decrease are rounding.
+/// Fraction of the tolerance below which corrections that no longer decrease count as rounding.
 const ROUNDING: f64 = 0.1;
 
 impl Radau {
-    /// Solves for the slopes of all stages and the stages. Returns false if the iteration fails.
+    /// Solves for the slopes and states of all stages. Returns false if the iteration fails.
     pub(super) fn solve_stages<S: System + ?Sized>(&mut self, system: &S, scale: &[f64]) -> bool {
         if !self.factor_stages() {
             return false;
@@ -25,7 +25,7 @@ impl Radau {
         self.correct_stages(system, scale)
     }
 
-    /// Iterates from the present slopes with the present matrix. Returns false if the iteration fails.
+    /// Iterates from the present slopes with the present matrix of corrections. Returns false if the iteration fails.
     pub(super) fn correct_stages<S: System + ?Sized>(&mut self, system: &S, scale: &[f64]) -> bool {
         self.follow();
         let mut before = f64::INFINITY;
@@ -59,7 +59,7 @@ impl Radau {
         })
     }
 
-    /// Computes the stages from the slopes, minus the state at the start.
+    /// Computes the states of the stages minus the state at the start, from the slopes of the stages.
     fn follow(&mut self) {
         let (p, n, h) = (self.positions, self.dimension, self.extent.step);
         for component in p..n {
@@ -72,7 +72,7 @@ impl Radau {
         }
     }
 
-    /// Evaluates the slopes of all stages and the residuals of the coupled ones.
+    /// Evaluates the slopes of all stages, and the residuals of the coupled slopes.
     fn evaluate_stages<S: System + ?Sized>(&mut self, system: &S) {
         let (p, n) = (self.positions, self.dimension);
         let m = n - p;
@@ -96,7 +96,7 @@ impl Radau {
         self.evaluations += STAGES as u64;
     }
 
-    /// Corrects slopes and stages. Returns the size of the correction in units of the tolerance.
+    /// Corrects slopes and states of the stages. Returns the size of the correction in units of the tolerance.
     ///
     /// The Jacobian corrects quadratures, too: the power of a stiff damper depends on velocity differences far below the tolerance.
     fn correct(&mut self, scale: &[f64]) -> f64 {
@@ -128,7 +128,7 @@ impl Radau {
         if probe.is_finite() { most } else { f64::NAN }
     }
 
-    /// Computes the stages of positions and quadratures, and the end of the step.
+    /// Computes the stages of positions and quadratures, and the state at the end of the step.
     pub(super) fn arrive(&mut self) {
         let (p, n, h) = (self.positions, self.dimension, self.extent.step);
         for x in 0..p {

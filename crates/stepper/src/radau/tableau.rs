@@ -1,7 +1,7 @@
 //! Coefficients of Radau IIA with five stages.
 //!
-//! The nodes are the zeros of d⁴/dx⁴ [x⁴ (x-1)⁵]. A integrates the Lagrange polynomials of the nodes up to each node; the weights
-//! are its last row. Computed to 50 digits and rounded; tests compare them with the order conditions.
+//! The nodes are the zeros of d⁴/dx⁴ [x⁴ (x-1)⁵]. A integrates the Lagrange polynomials of the nodes up to each node; its last row contains
+//! the weights. Coefficients were computed to 50 digits and rounded; tests compare them with the order conditions.
 //!
 //! Source: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer 1996, section IV.5 (nodes) and
 //! IV.8 (estimate).
@@ -66,8 +66,8 @@ pub(super) const SQUARE: [Stages; STAGES] = square();
 /// Weight of the slopes at the start in the error estimate: the real eigenvalue of A.
 pub(super) const FIRST: f64 = 0.159_065_844_427_469_1;
 
-/// Weights of the stages in the error estimate. With [`FIRST`] they are the quadrature of order 5 on the start and the nodes,
-/// minus that of the method.
+/// Weights of the stages in the error estimate. Together with [`FIRST`] they are the quadrature of order 5 on the start and the nodes,
+/// minus the quadrature of the method.
 pub(super) const ESTIMATE: Stages = [
     -0.252_343_312_249_546_4,
     0.160_357_122_102_969_94,
@@ -87,7 +87,7 @@ const fn square() -> [Stages; STAGES] {
     square
 }
 
-/// Returns the scalar product of two rows.
+/// Returns the scalar product of two rows of coefficients.
 #[inline]
 pub(super) fn dot(row: &Stages, k: &Stages) -> f64 {
     row.iter().zip(k).map(|(a, k)| a * k).sum()

@@ -1,7 +1,7 @@
-//! Accurate states inside a step, by a separate step to the moment.
+//! Accurate states inside a step, by a separate step from its start to the requested time.
 //!
-//! The dense output interpolates the stages. Between them a stiff component, such as a driver current, has a large interpolation error. A
-//! separate step from the same start has none. Its stages are close to the dense output, so one or two corrections suffice.
+//! The dense output interpolates the stages. Between stages, a stiff component, such as a driver current, has a large interpolation error.
+//! A separate step from the same start avoids this error. Its stages are close to the dense output, so one or two corrections suffice.
 
 use super::{Radau, dense};
 use crate::System;
@@ -9,15 +9,15 @@ use crate::radau::tableau::NODES;
 use std::ops::Range;
 
 impl Radau {
-    /// Creates the stepper for moments inside the step, unless it exists.
+    /// Creates the stepper for times inside the step, unless the stepper exists.
     pub(super) fn invite(&mut self) {
         if self.visitor.is_none() {
             self.visitor = Some(Box::new(self.clone()));
         }
     }
 
-    /// Writes all components at time `t` inside the step into `out`. Returns false without a result at the ends, for a parabola,
-    /// without dense output, and where the Newton iteration fails.
+    /// Writes all components at time `t` inside the step into `out`. Returns false without a result at the ends, for constant
+    /// accelerations, without dense output, and if the Newton iteration fails.
     pub(super) fn visit_inside<S: System + ?Sized>(
         &mut self,
         system: &S,
@@ -37,7 +37,7 @@ impl Radau {
         found
     }
 
-    /// Replaces the given components and their slopes at the end of a cut step by those of a separate step up to there.
+    /// Replaces the given components and their slopes at the end of a cut step by the result of a separate step to that end.
     pub(super) fn settle_cut<S: System + ?Sized>(
         &mut self,
         system: &S,

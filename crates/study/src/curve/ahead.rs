@@ -1,15 +1,15 @@
 //! Speculative parallel search.
 //!
 //! A sequential search evaluates one point after another; each point depends on the earlier results. To use several cores, unknown results
-//! are replaced by guesses, and all points that the search then requests are computed in parallel. Afterwards the search starts again with
-//! the new results.
+//! are replaced by guesses, and all points that the search then requests are computed in parallel. After this computation the search starts
+//! again with the new results.
 //!
-//! Known results are never replaced by guesses. The search and its points are therefore the same for any number of
-//! cores. Wrong guesses only waste the time of idle cores.
+//! Known results are never replaced by guesses, so the search evaluates the same points for any number of cores. Wrong guesses only waste
+//! the time of idle cores.
 
 use crate::each::each;
 
-/// Evaluation function of a search. Arguments: the point and the progress of the search, 0 to 1. `Err(None)` ends the search for now.
+/// Evaluation function of a search, called with a point and the progress of the search, 0 to 1. `Err(None)` suspends the search.
 pub(super) type Ask<'a, A, E> = dyn FnMut(f64, f64) -> Result<A, Option<E>> + 'a;
 
 /// Result of a search.
@@ -17,13 +17,13 @@ pub(super) type Ask<'a, A, E> = dyn FnMut(f64, f64) -> Result<A, Option<E>> + 'a
 pub(super) struct Found<T, A, E> {
     /// Result of the search, or its first error.
     pub(super) outcome: Result<T, E>,
-    /// Points that the search evaluated, with their results.
+    /// Points that the search evaluated, with the results at these points.
     pub(super) asked: Vec<(f64, Result<A, E>)>,
 }
 
 /// Runs a search on `cores` threads.
 ///
-/// `guess` predicts the result at a point from the known results. `of` computes it. `told` receives the progress of the search.
+/// `guess` predicts the result at a point from the known results, `of` computes the result, and `told` receives the progress of the search.
 pub(super) fn search<T, A: Clone + Send, E: Clone + Send>(
     cores: usize,
     mut search: impl FnMut(&mut Ask<'_, A, E>) -> Result<T, Option<E>>,
@@ -38,7 +38,7 @@ pub(super) fn search<T, A: Clone + Send, E: Clone + Send>(
             known.iter().filter_map(|(at, answer)| Some((*at, answer.clone().ok()?))).collect();
         let outcome = search(&mut |at, behind| {
             if let Some((_, answer)) = known.iter().find(|(place, _)| *place == at) {
-                // Points after a guess may never be requested.
+                // The search with computed results may never request points that depend on a guess.
                 if wanted.is_empty() {
                     asked.push((at, answer.clone()));
                     return answer.clone().map_err(Some);
@@ -83,7 +83,7 @@ pub(super) fn parabola(points: impl Iterator<Item = (f64, f64)>, at: f64) -> f64
     share(a, b, c) + share(b, c, a) + share(c, a, b)
 }
 
-/// Sorts points by their distance and removes duplicates.
+/// Sorts points by their distance from `at` and removes duplicates.
 fn nearest(points: impl Iterator<Item = (f64, f64)>, at: f64) -> Vec<(f64, f64)> {
     let mut near: Vec<(f64, f64)> = points.collect();
     near.sort_by(|a, b| (a.0 - at).abs().total_cmp(&(b.0 - at).abs()).then(a.0.total_cmp(&b.0)));

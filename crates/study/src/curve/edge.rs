@@ -1,8 +1,8 @@
 //! Bracketing of the value at which steps vanish: one end of the bracket has steps, the other has none.
 //!
-//! Beyond this value the step length is zero or reversed, so ordinary root finding does not apply. The step length is nearly linear before
-//! it. The line through the two nearest points with steps predicts the zero, and the next evaluation is 0.45 tolerances before or beyond
-//! the prediction. The bracket is bisected if the prediction fails to halve it.
+//! Beyond the value at which steps vanish, the step length is zero or reversed, so ordinary root finding does not apply. On the side with
+//! steps, the step length is nearly linear. The line through the two nearest points with steps predicts the zero, and the next evaluation
+//! is 0.45 tolerances before or beyond the prediction. The bracket is bisected if the prediction fails to halve it.
 
 use super::CurveError;
 
@@ -21,7 +21,7 @@ pub struct Bracket {
 const MOST: u32 = 60;
 /// Distance of an evaluation from the predicted zero, relative to the tolerance.
 const ASIDE: f64 = 0.45;
-/// Smallest scale of the relative tolerance, as a fraction of half the initial bracket. It bounds the search near zero.
+/// Smallest value to which the relative tolerance refers, as a fraction of half the initial bracket, so that a search near zero ends.
 const NOTHING: f64 = 1e-2;
 
 impl Bracket {
@@ -45,11 +45,11 @@ impl Bracket {
         0.5 * (self.steps - self.still).abs()
     }
 
-    /// Narrows the bracket until its width is below `tolerance` times its midpoint. Returns `None` if `known` is empty.
+    /// Returns the bracket of the zero, narrowed to `tolerance` times its midpoint. Returns `None` if `known` is empty.
     ///
-    /// `known` has points with their step lengths, nearest to the zero first. `still` is a point without steps.
-    /// `try_at` returns the step length at a point, or `None` without steps. Its second argument is the progress of the
-    /// search, 0 to 1, on a logarithmic scale of the bracket width.
+    /// `known` contains points and their step lengths, nearest to the zero first. `still` is a point without steps. `try_at` returns the
+    /// step length at a point, or `None` without steps. The second argument of `try_at` is the progress of the search, 0 to 1, on a
+    /// logarithmic scale of the bracket width.
     ///
     /// # Errors
     /// Returns the first error of `try_at`.
@@ -85,8 +85,8 @@ impl Bracket {
     }
 }
 
-/// Returns the next point to evaluate by linear extrapolation of the two nearest step lengths. Returns `None` if it is
-/// outside the bracket.
+/// Returns the next point to evaluate by linear extrapolation of the two nearest step lengths. Returns `None` if this point is outside the
+/// bracket.
 fn aimed(known: &[(f64, f64)], bracket: Bracket, width: f64) -> Option<f64> {
     let (&(x, step), &(farther, longer)) = (known.first()?, known.get(1)?);
     let end = x - step * (farther - x) / (longer - step);
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
     use std::convert::Infallible;
 
-    /// Bracket for step lengths |S - S₀|ᵖ on the side of `known` and no steps on the other side.
+    /// Returns the bracket for step lengths |S - S₀|ᵖ on the side of `known` and no steps beyond S₀.
     fn found(edge: f64, power: f64, known: &[f64], still: f64, tolerance: f64) -> Bracket {
         let step = |at: f64| {
             let beyond = (at - edge) * (known[0] - still).signum();

@@ -1,4 +1,4 @@
-//! Errors of a whole curve. Errors of a single point are in its row.
+//! Errors that concern a whole curve. Errors of a single point are stored in the point.
 
 use stickslip_run::Refusal;
 use stickslip_scenario::ScenarioError;

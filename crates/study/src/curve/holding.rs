@@ -1,9 +1,9 @@
 //! Holding force: the largest load along x that the drive at rest holds.
 //!
-//! Waveforms rest at their values at t = 0. A load is held if the drive has a static equilibrium in which contacts creep but do not slip
-//! as a whole. The start in equilibrium ([`stickslip_drive::Model::start`]) searches for it with all loads increased in proportion.
-//! Without an equilibrium it reports the body that gives way. The largest load is found by bisection, because the search only reports
-//! whether a load is held.
+//! All waveforms keep their values at t = 0. A load is held if the drive has a static equilibrium in which contacts may slip partially but
+//! not grossly. [`stickslip_drive::Model::start`] searches for the equilibrium with all loads increased in proportion. Without an
+//! equilibrium, this search reports the body that moves. The largest load is found by bisection, because the search only reports whether a
+//! load is held.
 
 mod held;
 mod table;
@@ -85,7 +85,7 @@ impl Holding {
     /// Computes the holding forces at the given values to a relative tolerance, on `cores` threads. The result does not
     /// depend on the number of threads.
     ///
-    /// The watcher receives the number of finished points. If it interrupts, the remaining points are [`Holdless::NotRun`].
+    /// The watcher receives the number of finished points. If the watcher interrupts, the remaining points are [`Holdless::NotRun`].
     ///
     /// # Errors
     /// Fails if the tolerance is outside 1e-9 to 0.1.
@@ -121,14 +121,14 @@ impl Holding {
 }
 
 impl Point {
-    /// Returns whether both directions are finished, with or without a result.
+    /// Returns whether the computation is finished in both directions, with or without a result.
     #[must_use]
     pub fn is_done(&self) -> bool {
         self.ways.iter().all(|way| *way != Err(Holdless::NotRun))
     }
 
-    /// Returns whether the holding forces in both directions agree within their uncertainties. If one of them has no
-    /// result, the other must not have one, either.
+    /// Returns whether the holding forces in both directions agree within their uncertainties. A direction without result agrees only with
+    /// an opposite direction without result.
     #[must_use]
     pub fn is_alike(&self) -> bool {
         match &self.ways {

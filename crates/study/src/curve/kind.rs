@@ -9,9 +9,9 @@ pub enum Kind {
     SpeedFrequency,
     /// Mean velocity and power versus a load against the steps of the body named in `figures`.
     ForceSpeed,
-    /// Step length versus the same load.
+    /// Step length versus a load against the steps of the body named in `figures`.
     StepLoad,
-    /// Step length versus the normal force of the body's contacts.
+    /// Step length versus the sum of the normal forces of the body's contacts.
     Preload,
     /// Step length versus any parameter of the scenario, given by its key path.
     Vary(String),
@@ -35,7 +35,7 @@ impl Kind {
         }
     }
 
-    /// Returns the type with this name, unless it needs a key path.
+    /// Returns the curve type with this name, among the types without a key path.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
         Self::NAMED.into_iter().find(|kind| kind.name() == name)

@@ -20,11 +20,11 @@ pub struct Landmark {
     pub half_width: f64,
     /// Maximum, SI. `None` for `zero_step` and `stall`.
     pub value: Option<f64>,
-    /// Number of points computed for it.
+    /// Number of points computed to find the landmark.
     pub runs: u32,
-    /// Of S₀: true if the drive steps in the opposite direction at smaller amplitudes.
+    /// For S₀: true if the drive steps in the opposite direction at smaller amplitudes.
     pub turns: bool,
-    /// Upper bound of S₀ if all points of the curve have steps: their smallest amplitude.
+    /// Upper bound of S₀ if all points of the curve have steps: the smallest amplitude of these points.
     pub below: Option<f64>,
     /// Cause of the missing steps above the largest amplitude with a step. `None` for other landmarks.
     pub beyond: Option<Beyond>,
@@ -56,10 +56,10 @@ impl Beyond {
 /// Reason why a landmark is not found.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Unfound {
-    /// It lies outside the range of the curve.
+    /// The landmark lies outside the range of the curve.
     #[error("not within the range: {0}")]
     Outside(&'static str),
-    /// A point of the search has no motion.
+    /// A point of the search has no steady motion.
     #[error("a neighbouring point has no result: {0}")]
     Motionless(Motionless),
     /// The search was not run or was interrupted.
@@ -67,7 +67,7 @@ pub enum Unfound {
     NotRun,
 }
 
-/// Reason if no point has a motion.
+/// Error text for a curve in which no point has a steady motion.
 const NO_MOTION: &str = "no point has a result";
 
 impl From<Motionless> for Unfound {
@@ -140,8 +140,8 @@ impl Curve {
         self.motion_at(at, search.traced.direction, search.watcher)
     }
 
-    /// Finds the value at which steps begin for the last time (`rises`), or end for the first time, as the size of the
-    /// parameter increases. Only steps in the direction of the largest one count.
+    /// Finds the parameter value at which steps begin for the last time (`rises`) or end for the first time as the parameter increases in
+    /// magnitude. Only steps in the direction of the largest step count.
     fn edge(&self, search: &Search<'_>, (name, rises): (&'static str, bool)) -> Landmark {
         let traced = search.traced;
         let (sense, lengths) = self.lengths(traced);
@@ -160,7 +160,7 @@ impl Curve {
         };
         let below = traced_still.is_none().then_some(smallest);
         let nearest: Vec<(f64, f64)> = steps.iter().rev().take(2).copied().collect();
-        // At parameters of the other sign, the drive always steps in the opposite direction.
+        // At parameter values of the opposite sign, the drive steps in the opposite direction in any case; these points do not count.
         let side = nearest.first().map_or(1.0, |(at, _)| at.signum());
         let is_smaller = |point: &&Point| (0.0..=(side * still).max(0.0)).contains(&(side * point.value));
         let is_back = |point: &Point| point.motion.as_ref().is_ok_and(|motion| motion.steps(-sense));
@@ -195,7 +195,7 @@ impl Curve {
         }
     }
 
-    /// Returns the direction of the steps, and the step lengths of all points that have one.
+    /// Returns the direction of the steps, and the step lengths of all points whose step length is known.
     fn lengths(&self, traced: &Traced) -> (f64, Vec<(f64, Length)>) {
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
         let length = |point: &Point| Some((point.value, Length::of(point.motion.clone(), sense).ok()?));
@@ -242,7 +242,7 @@ impl Curve {
         }
     }
 
-    /// Finds the maximum between the neighbours of the best point.
+    /// Searches for the maximum between both neighbours of the best point of the curve.
     fn best(&self, search: &Search<'_>, (name, yields): (&'static str, Yield)) -> Landmark {
         let traced = search.traced;
         let sense = if self.kind.is_of_load() { traced.direction } else { sense(traced) };
@@ -296,7 +296,7 @@ impl Curve {
     }
 }
 
-/// Returns the reason why the best point, with index `place`, has no neighbour with a motion on one side. Returns `None` if it has both.
+/// Returns the reason why the best point (index `place`) lacks a neighbour with a result on one side. Returns `None` with two neighbours.
 fn at_an_end(traced: &Traced, known: &[Seen], place: usize) -> Option<&'static str> {
     let is = |end: Option<&Point>| end.is_some_and(|point| point.value == known[place].at);
     match (place == 0, place + 1 == known.len()) {
@@ -310,7 +310,7 @@ fn at_an_end(traced: &Traced, known: &[Seen], place: usize) -> Option<&'static s
 /// Landmark to be found.
 #[derive(Debug, Clone, Copy)]
 enum Sought {
-    /// Value at which steps begin for the last time (`rises`), or end for the first time.
+    /// Parameter value at which steps begin for the last time (`rises`) or end for the first time as the parameter increases.
     Edge { name: &'static str, rises: bool },
     /// Largest amplitude with a step.
     Upper { name: &'static str },
@@ -333,11 +333,11 @@ struct Search<'a> {
 struct Length {
     step: Option<f64>,
     error: Option<f64>,
-    /// Length of a step that is too short to count, m. The zero of the step length is that much farther away.
+    /// Displacement per period too short to count as a step, m; it adds to the uncertainty of the zero of the step length.
     rest: f64,
 }
 
-/// Data around a zero of the step length: step lengths at all points, the nearest two points with a step, and the nearest without.
+/// Data around a zero of the step length: step lengths at all points, the nearest two points with a step, the nearest point without a step.
 struct Around {
     lengths: Vec<(f64, Length)>,
     nearest: Vec<(f64, f64)>,
@@ -356,7 +356,7 @@ enum Yield {
 }
 
 impl Length {
-    /// Returns the step length of a motion in a direction. Also accepts a missing motion that implies no steps.
+    /// Returns the step length of a motion in a direction. Also accepts a missing motion whose reason implies that there are no steps.
     fn of(motion: Result<Motion, Motionless>, sense: f64) -> Result<Self, Motionless> {
         match motion {
             Ok(motion) => {
@@ -372,7 +372,7 @@ impl Length {
 }
 
 impl Landmark {
-    /// Returns its name in words. `varied` is the name of the varied parameter: half of the zero-step stroke of a sine is an amplitude.
+    /// Returns the name of the landmark in words. `varied` is the name of the varied parameter, such as `stroke` or `amplitude`.
     #[must_use]
     pub fn words(&self, varied: &str) -> String {
         let is_amplitude = varied == "amplitude";
@@ -421,7 +421,7 @@ impl Landmark {
     }
 }
 
-/// Returns the step lengths of points, starting on the side with steps: the largest amplitude if steps grow with it, or the smallest load.
+/// Returns the step lengths of points, from the largest amplitude down if steps grow with the amplitude, or from the smallest load up.
 fn from_steps(lengths: &[(f64, Length)], rises: bool) -> Vec<(f64, Option<f64>)> {
     let mut known: Vec<(f64, Option<f64>)> = lengths.iter().map(|(at, length)| (*at, length.step)).collect();
     let size = |place: Option<&(f64, Option<f64>)>| place.map_or(0.0, |(at, _)| at.abs());
@@ -431,8 +431,8 @@ fn from_steps(lengths: &[(f64, Length)], rises: bool) -> Vec<(f64, Option<f64>)>
     known
 }
 
-/// Returns the slope of the step length near its zero. It is computed from the two nearest points with steps, or from
-/// the nearest one and the point without.
+/// Returns the slope of the step length near its zero. The slope is computed from the two nearest points with steps, or from the nearest
+/// point with steps and the point without steps.
 fn slope(nearest: &[(f64, f64)], still: f64) -> f64 {
     let (at, step) = nearest.first().copied().unwrap_or((still, 0.0));
     let (other, longer) = nearest.get(1).copied().unwrap_or((still, 0.0));

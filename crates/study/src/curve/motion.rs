@@ -1,6 +1,6 @@
 //! Steady motion of a drive: by shooting if possible, otherwise by simulation until it is steady.
 //!
-//! [`steady::find`] finds periodic orbits, stable or not. If it fails or the orbit is unstable, the drive is simulated (`waiting`).
+//! [`steady::find`] searches for a periodic orbit. Without an orbit or with an unstable orbit, the drive is simulated (`waiting`).
 
 use super::waiting::{Unstable, waited};
 use crate::steady::{self, Multiplier, Options, SteadyError};
@@ -10,8 +10,8 @@ use stickslip_run::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Maximum number of periods of the shooting search: without and with piezo drivers or materials that have a state. Searches that succeed
-/// with such states are short; states of ceramic hysteresis (play operators) often have no periodic orbit.
+/// Maximum number of periods of the shooting search, without and with internal states of piezo drivers or materials. Successful searches
+/// with such states are short; models with ceramic hysteresis (play operators) often have no periodic orbit.
 const SHOT: u32 = 400;
 const SHOT_OF_BLOCKS: u32 = 100;
 /// Tolerance of the local error per time step.
@@ -55,7 +55,7 @@ pub enum Motionless {
     /// The curve was interrupted before this point was computed.
     #[error("not run")]
     NotRun,
-    /// The value does not give a valid scenario.
+    /// The parameter value gives an invalid scenario.
     #[error(transparent)]
     #[serde(skip)]
     Scenario(#[from] ScenarioError),
@@ -68,7 +68,7 @@ pub enum Motionless {
     /// The run or the search for the periodic orbit stopped with an error.
     #[error("{0}")]
     Stopped(String),
-    /// The body is dragged away: it accelerates, or it slips during the whole period and moves the same distance in each.
+    /// The body is dragged away: it accelerates, or it slips during the whole period and moves equally far in every period.
     #[error("slides away: after {periods} periods the body moves by {step:.3e} m per period, {}", away(*step, *change))]
     SlidesAway {
         /// Number of simulated periods.
@@ -78,7 +78,7 @@ pub enum Motionless {
         /// Change of the last step length, m.
         change: f64,
     },
-    /// All contacts of the body are open. The distance that it flies per period does not count as a step.
+    /// All contacts of the body are open. The displacement of a flying body per period does not count as a step.
     #[error(
         "in the air: after {periods} periods all contacts of the body are open, so its displacement per period is not a step"
     )]
@@ -117,7 +117,7 @@ pub enum Motionless {
 
 /// Relative change of the step length below which it counts as constant.
 const EVEN: f64 = 1e-6;
-/// Step length relative to u_c below which it counts as no step.
+/// Step length, relative to the gross slip displacement u_c, below which a motion counts as no step.
 pub(super) const STILL: f64 = 1e-5;
 
 /// Describes the motion of a body that slides away.
@@ -129,7 +129,7 @@ fn away(step: f64, change: f64) -> String {
 }
 
 impl Motion {
-    /// Computes the steady motion of a job.
+    /// Computes the steady motion of a scenario.
     ///
     /// # Errors
     /// Fails if nothing makes steps, the run stops with an error or the steps do not settle. Returns
@@ -169,7 +169,7 @@ impl Motion {
     fn found(job: &Job, found: &steady::Steady) -> Result<Self, Motionless> {
         let body = job.scenario.figures.body.ok_or(Motionless::NoSteps)?;
         let period = waveform(job)?.period().ok_or(Motionless::NoSteps)?;
-        // The common period of all waveforms may be several periods of this one.
+        // The common period of all waveforms may be a multiple of the period of this waveform.
         let share = 1.0 / found.periods_of(period);
         let step = share * found.step.ok_or(Motionless::NoSteps)?;
         let natural = natural(job, body);
@@ -217,7 +217,7 @@ impl Motion {
         }
     }
 
-    /// Returns whether the motion is steady and makes no steps. Its step length is then below its error or negligible.
+    /// Returns whether the motion is steady with a step length that is below its error or negligible.
     #[must_use]
     pub fn stands(&self) -> bool {
         self.course == Course::Steady && self.is_still()
@@ -235,17 +235,17 @@ impl Motion {
         direction * self.step > self.least().max(self.error)
     }
 
-    /// Returns the step length below which there is no step, m.
+    /// Returns the shortest displacement per period that counts as a step, m.
     pub(super) fn least(&self) -> f64 {
         STILL * self.natural
     }
 }
 
 impl Motionless {
-    /// Returns whether the drive makes no steady step in this case.
+    /// Returns whether this reason implies that the drive makes no steady step.
     ///
-    /// That is the case if a load drags the body away. It is also the case if the step length, at its present rate of
-    /// decrease, would vanish within twice the simulated periods.
+    /// The drive makes no steady step if a load drags the body away, or if the step length, at its present rate of decrease, would vanish
+    /// within twice the simulated periods.
     #[must_use]
     pub fn makes_no_step(&self) -> bool {
         match self {
@@ -257,7 +257,7 @@ impl Motionless {
         }
     }
 
-    /// Returns whether a result is stored in the journal: all but interruptions and invalid scenarios.
+    /// Returns whether the journal stores a result. Only interruptions and invalid scenarios are not stored.
     pub(super) fn is_no_end(found: &Result<Motion, Self>) -> bool {
         !matches!(found, Err(Self::NotRun | Self::Scenario(_)))
     }
@@ -285,8 +285,8 @@ pub(super) fn waveform(job: &Job) -> Result<&Waveform, Motionless> {
     Ok(&named.part)
 }
 
-/// Returns the smallest gross slip displacement u_c of a body's contacts, m. Considers all contacts if the body has
-/// none. Returns 0 if there are no contacts.
+/// Returns the smallest gross slip displacement u_c of a body's contacts, m. Considers all contacts of the model if the body has no
+/// contacts. Returns 0 if the model has no contacts.
 pub(super) fn natural(job: &Job, body: usize) -> f64 {
     use stickslip_drive::scene::Side;
     let contacts = &job.scenario.scene.contacts;

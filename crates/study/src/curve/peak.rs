@@ -1,7 +1,7 @@
 //! Maximum of a curve by golden section search between the neighbours of the best known point.
 //!
-//! Source: Kiefer, *Proc. Amer. Math. Soc.* 4 (1953) 502. The search finds the maximum of a unimodal curve. For other curves it returns a
-//! value at least as large as the best known one.
+//! Source: Kiefer, *Proceedings of the American Mathematical Society* 4 (1953) 502. The search finds the maximum of a unimodal curve. For
+//! other curves the search returns a value at least as large as the largest known value.
 
 /// 1/φ.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;

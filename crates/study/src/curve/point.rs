@@ -1,4 +1,4 @@
-//! Points of a curve. Each is the steady motion of a variant of the scenario.
+//! Points of a curve: steady motions of variants of the scenario.
 
 use super::{Curve, Landmark, Motion, Motionless, Traced, Unfound};
 use stickslip_run::Warning;

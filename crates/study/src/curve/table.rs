@@ -11,8 +11,8 @@ use stickslip_run::files::{CURVE, PARTIAL_CURVE};
 use stickslip_run::folder::Folder;
 use stickslip_run::{Job, Real, Warning};
 
-/// Names of table and report, of a complete and of an interrupted curve. An interrupted curve does not replace a
-/// complete one.
+/// File names of table and report for complete and for interrupted curves. The files of an interrupted curve do not replace those of a
+/// complete curve.
 const NAMES: Names = [["curve.csv", CURVE], ["curve-partial.csv", PARTIAL_CURVE]];
 
 /// Returns the names of all files of a curve except plots.
@@ -277,15 +277,14 @@ pub fn json(ways: &[Way<'_>]) -> String {
     report(ways).and_then(|report| serde_json::to_string(&report).ok()).unwrap_or_default()
 }
 
-/// Writes the table, `curve.json` and plots into a folder, and deletes the plots named `stale` that are not among them.
-/// Returns the names, none without a curve.
+/// Writes the table, `curve.json` and plots into a folder, and deletes plots named in `stale` that are not written again. Returns the names
+/// of the written files, or no names without a curve.
 ///
-/// An interrupted curve is written to `curve-partial.csv` and `curve-partial.json`; the next complete curve deletes
-/// these.
+/// An interrupted curve is written to `curve-partial.csv` and `curve-partial.json`; the next complete curve deletes these partial files.
 ///
 /// # Errors
-/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
-/// names.
+/// Returns an error of the operating system. Existing files remain unchanged, unless the error occurs while new files are renamed to their
+/// final names.
 pub fn write(
     folder: Folder,
     ways: &[Way<'_>],

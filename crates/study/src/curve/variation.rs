@@ -1,4 +1,4 @@
-//! The varied parameter of a curve. It gives the arguments of `--set` for each point, so that every point can be run separately.
+//! The varied parameter of a curve, with the arguments of `--set` for each point, so that every point can be run separately.
 
 use super::{CurveError, Kind};
 use serde_json::Value;
@@ -30,7 +30,7 @@ pub struct Variation {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Setting {
-    /// Key paths with factors: each is set to the value times its factor.
+    /// Key paths with factors: the parameter at each path is set to the curve's value times its factor.
     Paths(Vec<(String, f64)>),
     /// An additional load on the body of this name.
     Load(String),
@@ -84,7 +84,7 @@ impl Variation {
         CurveError::NoRange { file: job.name.clone(), varied: self.name.clone(), why }
     }
 
-    /// Returns the overrides that reverse all waveforms of the steps' period in time, so that the drive steps in the opposite direction.
+    /// Returns the overrides that time-reverse all waveforms with the period of the steps, so that the drive steps backward.
     pub(super) fn reversal(job: &Job, kind: &Kind) -> Result<Overrides, CurveError> {
         let tree = serde_json::from_str(&job.resolved).unwrap_or_default();
         let scene = &job.scenario.scene;
@@ -117,7 +117,7 @@ impl Variation {
         Ok(all?.concat())
     }
 
-    /// Returns the overrides for a value. A load acts against `direction`, the direction of the steps, 1 or -1.
+    /// Returns the overrides for a parameter value. A load acts against `direction`, the direction of the steps, 1 or -1.
     pub(super) fn overrides(&self, value: f64, direction: f64) -> Overrides {
         match &self.setting {
             Setting::Paths(paths) => {
@@ -140,11 +140,11 @@ impl Variation {
                 Some(Place { path, word, .. }) if word == "table" => {
                     format!("vary {path}.gain, the factor of all its values")
                 }
-                _ => "vary one of its numbers by its path".to_owned(),
+                _ => "vary a number of the waveform by its path".to_owned(),
             };
             return Err(not_here(job, Kind::StepAmplitude.name(), why, &help));
         };
-        // Waveforms of other feet of the same gait: same period and size, followed along the same axes.
+        // Waveforms of other feet in the same gait have the same period and size and are followed along the same axes.
         let alike = |w: usize| {
             let found = size(tree, scene, w);
             found.filter(|(_, other, size)| {
@@ -169,7 +169,7 @@ impl Variation {
         let paths = companions(scene, waveform).into_iter().map(path).collect::<Option<Vec<_>>>();
         let Some(paths) = paths else {
             let why = "a waveform has no frequency, such as a table".to_owned();
-            return Err(not_here(job, Kind::SpeedFrequency.name(), why, "change the times of its points"));
+            return Err(not_here(job, Kind::SpeedFrequency.name(), why, "change the times in the table"));
         };
         let present = scene.waveforms[waveform].part.period().map(f64::recip);
         let range = present.map(|frequency| [frequency / 10.0, 2.0 * frequency]);
@@ -188,10 +188,10 @@ impl Variation {
         }
     }
 
-    /// Varies the normal forces of all contacts of the body that are pressed by a constant force, in proportion. The value is their sum.
+    /// Varies the constant normal forces of all contacts of the body in proportion. The parameter value is the sum of these forces.
     ///
     /// # Errors
-    /// Returns a message if there is no such contact.
+    /// Returns a message if no contact of the body has a constant normal force.
     pub(super) fn preload(job: &Job, body: usize) -> Result<Self, String> {
         let scene = &job.scenario.scene;
         let own = scene.contacts.iter().filter(|c| c.part.between.contains(&Side::Body(body)));
@@ -219,7 +219,7 @@ pub(super) fn not_here(job: &Job, kind: &'static str, why: String, help: &str) -
     CurveError::NotHere { file: job.name.clone(), kind, why, help: help.to_owned() }
 }
 
-/// Returns the sum of the friction limits μF_N of a body's contacts at t = 0, N. It is an upper bound of the holding force.
+/// Returns the sum of the friction limits μF_N of a body's contacts at t = 0, N. This sum is an upper bound of the holding force.
 fn held(job: &Job, body: usize) -> f64 {
     let contacts = job.scenario.scene.contacts.iter().enumerate();
     let own = contacts.filter(|(_, contact)| contact.part.between.contains(&Side::Body(body)));
@@ -253,7 +253,7 @@ fn waveform(job: &Job) -> Result<usize, CurveError> {
     Err(CurveError::NoPeriod { file: job.name.clone(), why, help })
 }
 
-/// Returns the index of the body whose steps are evaluated. `lacking` is the error message if there is none.
+/// Returns the index of the body whose steps are evaluated. `lacking` is the error message if the model has no such body.
 pub(super) fn body(job: &Job, lacking: &'static str) -> Result<usize, CurveError> {
     let bodies = &job.scenario.scene.bodies;
     let is_free = |b: &usize| bodies.get(*b).is_some_and(|body| body.part.x.freedom == Freedom::Free);
@@ -268,13 +268,13 @@ pub(super) fn body(job: &Job, lacking: &'static str) -> Result<usize, CurveError
 
 /// Returns the phase of a time-reversed cycle, rad, from its phase and its delay in periods.
 ///
-/// The reversed cycle runs through the values before the time origin. It also starts after its delay and keeps its
-/// phase relative to other waveforms.
+/// The reversed cycle runs through the values before the time origin. The reversed cycle also starts after the delay of the waveform and
+/// keeps its phase relative to other waveforms.
 fn mirrored(phase: f64, delay: f64) -> f64 {
     (TAU * (2.0 * delay).fract() - phase).rem_euclid(TAU)
 }
 
-/// Returns the indices of all waveforms with the same period as the given one, including it.
+/// Returns the indices of all waveforms with the same period as the given waveform, including this waveform.
 fn companions(scene: &Scene, waveform: usize) -> Vec<usize> {
     let own = scene.waveforms[waveform].part.period().unwrap_or(f64::NAN);
     let is_alike = |w: &usize| {
@@ -283,7 +283,7 @@ fn companions(scene: &Scene, waveform: usize) -> Vec<usize> {
     (0..scene.waveforms.len()).filter(is_alike).collect()
 }
 
-/// Finds the waveform in the scenario: under its name, or at the body that follows it.
+/// Finds a waveform in the scenario file: under its name, or at the body that follows the waveform.
 fn place<'a>(tree: &'a Value, name: &str) -> Option<Place<'a>> {
     let named = tree.get("waveforms").and_then(|all| all.get(name));
     let (path, found) = match named {

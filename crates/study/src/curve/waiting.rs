@@ -1,19 +1,17 @@
 //! Steady motion by simulation, period by period.
 //!
-//! The step lengths s₀, s₁, … are those of the periods of the waveform named in `figures`. Near a periodic orbit, their
-//! changes eₖ = sₖ - sₖ₋₁ decrease by a constant ratio r
-//! per period. The remaining change is then eₖ r/(1-r) (Aitken, *Proc. R. Soc. Edinburgh* 46 (1926) 289). The motion is
-//! steady if the remaining change is negligible.
+//! The step length sₖ is the displacement in period k of the waveform named in `figures`. Near a periodic orbit, the changes eₖ = sₖ - sₖ₋₁
+//! decrease by a constant ratio r per period. The remaining change is then eₖ r/(1-r) (Aitken, *Proceedings of the Royal Society of
+//! Edinburgh* 46 (1926) 289). The motion is steady if the remaining change is negligible.
 //!
-//! Creep decays slowly, so the simulation does not wait for its end. If three successive limits by Aitken's rule agree, their value is the
-//! step length. Rounding errors of a limit grow as 1/(1-r)²; limits that rounding could have made equal are rejected. An example is a load
-//! that drags the body away, with r = 1.
+//! Creep decays slowly, so the simulation does not wait for the end of creep. If three successive limits by Aitken's rule agree, their
+//! value is the step length. Rounding errors of a limit grow as 1/(1-r)²; limits that rounding could have made equal are rejected. For
+//! example, a load that drags the body away has r = 1.
 //!
-//! A body that flies or slides may move a constant distance per period. Such periods do not count as steady: a contact
-//! must hold the body in every period.
+//! A body that flies or slides may move a constant distance per period. Periods in which no contact holds the body do not count as steady.
 //!
-//! A run that begins near an unstable periodic orbit stays there until a disturbance has grown. The run continues until
-//! it has left the orbit.
+//! A run that begins near an unstable periodic orbit stays near this orbit until a disturbance has grown. The run continues until it has
+//! left the orbit.
 
 use super::motion::{Course, Motion, Motionless, STILL, natural, waveform};
 use crate::grip::{Grip, Loose};
@@ -25,29 +23,29 @@ use stickslip_run::{Job, Watcher};
 /// Maximum number of periods: normally, and while an oscillation about an unstable periodic orbit grows.
 const WAITED: u32 = 400;
 const LEAVING: u32 = 10_000;
-/// Largest remaining change of a steady step length, relative to the larger of the step length and u_c.
+/// Largest remaining change of a step length that counts as steady, relative to the larger of the step length and u_c.
 const LEFT: f64 = 1e-6;
-/// Number of periods for which a limit must remain the same. Slowly decaying parts of the slip memory become visible in this time.
+/// Number of periods for which an extrapolated limit must remain constant, so that slow changes of the slip memory become visible.
 const LASTING: u32 = 16;
-/// Minimum number of steps for a decision.
+/// Minimum number of step lengths for the extrapolation of their limit.
 const FEWEST: usize = 5;
-/// Number of successive limits that must agree.
+/// Number of successive extrapolated limits that must agree.
 const AGREEING: usize = 3;
-/// Largest relative change of the range of an oscillation with constant amplitude, from the third to the last quarter of the periods.
+/// Largest relative change, from the third to the last quarter of the periods, of the range of an oscillation with constant amplitude.
 const STAYS: f64 = 0.05;
 /// Safety factor on the extrapolated remaining change of a mean whose drift slows down.
 const SURE: f64 = 2.0;
-/// Largest relative growth of a constant amplitude over the second half of the periods, from its fit.
+/// Largest relative growth, fitted over the second half of the periods, of an amplitude that counts as constant.
 const DRIFTS: f64 = 0.01;
-/// An oscillation that has grown by less than this fraction of the growth of a disturbance does not grow with it.
+/// Smallest growth of an oscillation, relative to the predicted growth of a disturbance, for an oscillation that still grows.
 const LAGS: f64 = 0.1;
-/// Exponent of e beyond which a disturbance has grown from rounding error to any size.
+/// Logarithm of the factor by which a disturbance must grow from rounding error to become visible.
 const OUTGROWN: f64 = 80.0;
-/// Largest steps that count as ringing about zero, as a multiple of the smallest step, for waveforms that end.
+/// Largest step, as a multiple of the shortest displacement that counts as a step, that counts as ringing about zero.
 const RINGS: f64 = 10.0;
-/// Largest relative change of the range of a motion that has left its orbit, from the third to the last quarter of the periods.
+/// Largest relative change of the range of a motion that has left an unstable orbit, from the third to the last quarter of the periods.
 const WIDER: f64 = 0.25;
-/// Changes of the step length below this fraction of its scale are rounding errors.
+/// Changes of the step length below this fraction of the step length or of u_c are rounding errors.
 const ROUNDING: f64 = 1e-11;
 
 /// Unstable periodic orbit: step length and its error, m, and growth factor of a disturbance per period.
@@ -58,7 +56,7 @@ pub(super) struct Unstable {
     pub(super) growth: f64,
 }
 
-/// Simulates a job until its steps are steady. If `leaves` is given, the steps must not be those of this unstable orbit.
+/// Simulates a scenario until its steps are steady. The steady steps must differ from those of the unstable orbit `leaves`, if given.
 ///
 /// # Errors
 /// Fails if the waveform ends too early, the run fails, or the steps are not steady after the maximum number of
@@ -101,7 +99,7 @@ pub(super) fn waited(
         Motion { step, error, spread, period, course, multiplier, work, natural }
     };
     let ((mut before, _), mut steps, mut hold) = (place(0)?, Vec::new(), Hold::default());
-    // Period since which the limit is constant, and the limit at that time.
+    // Period since which the extrapolated limit is constant, and the limit in that period.
     let mut since: Option<(u32, Mean)> = None;
     let mut k = 0;
     loop {
@@ -127,7 +125,7 @@ pub(super) fn waited(
     }
 }
 
-/// Returns the period since which the limit is constant, with the limit and its error at that time.
+/// Returns the period since which the extrapolated limit is constant, with the limit and its error in that period.
 fn lasts(since: Option<(u32, Mean)>, (k, limit): (u32, Mean), natural: f64) -> (u32, Mean) {
     let is_same =
         |first: &Mean| (limit.value - first.value).abs() <= first.error.max(ROUNDING * natural) + limit.error;
@@ -135,18 +133,18 @@ fn lasts(since: Option<(u32, Mean)>, (k, limit): (u32, Mean), natural: f64) -> (
 }
 
 impl Unstable {
-    /// Returns whether a limit of the step length, m, belongs to another motion.
+    /// Returns whether a limit of the step length, m, belongs to another motion than the unstable orbit.
     fn is_other(&self, limit: &Mean, near: f64) -> bool {
         (limit.value - self.step).abs() > limit.error + self.error + near
     }
 
     /// Returns whether the run may still be near the unstable orbit or in transition from it.
     ///
-    /// That is the case if the steps oscillate about those of the orbit, their range increases or their mean drifts.
-    /// `period` is the period of the oscillation in steps.
+    /// The run may still be near the orbit if the steps oscillate about the step length of the orbit, their range changes or their mean
+    /// drifts. `period` is the period of the oscillation in steps.
     fn may_hold(&self, steps: &[f64], (course, mean, spread): (Course, Mean, f64), period: f64) -> bool {
         if course == Course::Steady {
-            // A disturbance that rounding has had time to excite, and has not, does not grow.
+            // If rounding errors have had time to grow into a visible disturbance, steady steps belong to another, stable motion.
             let has_grown = math::ln(self.growth) * (2 * steps.len()) as f64 > OUTGROWN;
             return !has_grown && !self.is_other(&mean, 0.0);
         }
@@ -168,7 +166,7 @@ fn moved(steps: &[f64], period: f64) -> Option<Moved> {
 /// Periods in which contacts held the body.
 #[derive(Debug, Clone, Copy, Default)]
 struct Hold {
-    /// Number of periods until the end of the last one in which no contact held the body, and of the last one in which a contact held it.
+    /// Number of the last period in which no contact held the body, and of the last period in which a contact held the body.
     loose_until: usize,
     held_until: usize,
     /// State of the body in the last period if no contact held it.
@@ -203,7 +201,7 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
     if left <= change * scale {
         return Some(Mean { value: last, error: left });
     }
-    // Aitken's rule for each of the last periods.
+    // Limit by Aitken's rule for each of the last periods.
     let limits: Vec<f64> = (0..AGREEING)
         .map(|back| steps[steps.len() - 1 - back] + changes[back] * shares[back] / (1.0 - shares[back]))
         .collect();
@@ -214,7 +212,7 @@ fn limit(steps: &[f64], natural: f64, change: f64) -> Option<Mean> {
     (is_creep && agree).then(|| Mean { value: limits[0], error: 10.0 * apart + rounding })
 }
 
-/// Evaluates steps that have not become steady. Returns the type of motion, its mean step length and the amplitude of the oscillation.
+/// Evaluates step lengths that are not constant. Returns the type of motion, the mean step length and the oscillation amplitude.
 ///
 /// # Errors
 /// Fails if the body slides away or flies, or the steps have no stationary behaviour yet.
@@ -228,11 +226,11 @@ fn judged(
     let half = &steps[steps.len() / 2..];
     let last = steps.last().copied().unwrap_or(0.0);
     let change = steps.windows(2).last().map_or(0.0, |pair| pair[1] - pair[0]);
-    // No upper bound of the step length here: whether large steps are steps depends on the contacts that hold the body.
+    // The step length has no upper bound here. Whether a large displacement is a step depends on the contacts that hold the body.
     let settling = Settling::of(steps, Bounds { most: f64::INFINITY, ..bounds });
     let slides = Motionless::SlidesAway { periods, step: last, change };
     let swings = matches!(settling, Settling::Beats { .. } | Settling::Irregular { .. });
-    // A hopping body may touch in every third period only.
+    // A hopping body may touch its support in every third period only.
     let long = if swings { half.len() } else { (steps.len() / 10).max(1) };
     let is_loose = steps.len() - hold.held_until >= long;
     match hold.loose.filter(|_| is_loose && last.abs() > bounds.least) {
@@ -245,7 +243,7 @@ fn judged(
     let largest = end.iter().fold(0.0, |most: f64, step| most.max(step.abs()));
     let rings =
         (end.iter().sum::<f64>() / end.len() as f64).abs() <= bounds.least && largest <= RINGS * bounds.least;
-    // Too few oscillations only show that the mean lies between their extremes.
+    // Too few oscillations only show that the mean step length lies between the extremes of the steps.
     let mean = |period, spread| Mean::of(half, period).unwrap_or(Mean { value: plain, error: spread });
     let (found, period) = match settling {
         Settling::Settled(settled) => {
@@ -253,7 +251,8 @@ fn judged(
         }
         Settling::Beats { period, growth, amplitude, .. } => {
             let Mean { value, error } = mean(period, amplitude);
-            // A growing or decaying oscillation changes the mean by an unknown amount. Motions that leave an orbit are examined below.
+            // A growing or decaying oscillation changes the mean by an unknown amount. Motions leaving an unstable orbit are examined
+            // below.
             let [before, after] = extents(half);
             let drifts = growth.is_some_and(|growth| (math::ln(growth) * half.len() as f64).abs() > DRIFTS);
             let stays = leaves.is_some() || !drifts && (after - before).abs() <= STAYS * before;
@@ -270,7 +269,7 @@ fn judged(
             ((Course::Steady, Mean { value: last, error: largest }, 0.0), 0.0)
         }
         Settling::Drifts { .. } | Settling::NotSettled { .. } => {
-            // Without a known upper bound of the step length: steps that grow without a predicted limit.
+            // If no upper bound of the step length is known, steps that grow without a predicted limit count as sliding.
             let is_foreseen = matches!(settling, Settling::NotSettled { limit: Some(_), .. });
             let grows = bounds.most == f64::INFINITY && change * last > 0.0 && !is_foreseen;
             return Err(match grows || last.abs() > bounds.most {
@@ -288,7 +287,7 @@ fn judged(
     }
 }
 
-/// Returns the ranges of the first and second half of the steps.
+/// Returns the ranges of the step lengths in the first and in the second half of the steps.
 fn extents(steps: &[f64]) -> [f64; 2] {
     let (first, last) = steps.split_at(steps.len() / 2);
     [extent(first), extent(last)]
@@ -301,7 +300,7 @@ fn extent(steps: &[f64]) -> f64 {
     high - low
 }
 
-/// Record that passes contact events to the grip observer and lets the watcher interrupt the run.
+/// Receiver of run output that passes contact events to the [`Grip`] observer and lets the watcher interrupt the run.
 struct Looker<'a> {
     watcher: &'a dyn Watcher,
     grip: Grip,

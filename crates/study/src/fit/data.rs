@@ -6,7 +6,7 @@ use stickslip_run::measured::{Evaluated, Measured};
 
 /// Noise of the displacement relative to its range below which it is neglected.
 const STILL: f64 = 2e-3;
-/// Largest distance between the ends of a closed loop, in largest steps between rows.
+/// Largest distance between first and last row of a closed loop, as a multiple of the largest step between successive rows.
 const NEAR: f64 = 1.5;
 /// Number of rows whose fourth differences give one degree of freedom of the noise variance.
 const ROWS: f64 = 6.0;
@@ -18,20 +18,20 @@ pub struct Data {
     pub t: Vec<f64>,
     /// Displacements, m.
     pub u: Vec<f64>,
-    /// Forces, N. For a trajectory, the displacements scaled to forces follow.
+    /// Forces, N; for a trajectory, followed by the displacements scaled to forces.
     pub force: Vec<f64>,
-    /// Number of rows of the record that each row averages.
+    /// Number of measured rows whose average is one row of these data.
     pub counts: Vec<f64>,
-    /// Whether the rows are one closed loop. Otherwise they are a trajectory.
+    /// Whether the rows are one closed loop; otherwise the rows are a trajectory.
     pub is_loop: bool,
     /// Period of the loop, s.
     pub period: f64,
-    /// Standard deviation of the noise of a force, N, if the rows determine it; and its degrees of freedom.
+    /// Standard deviation of the noise of a force, N, if the rows determine it; and degrees of freedom of this noise estimate.
     pub noise: Option<f64>,
     pub(super) freedom: f64,
     /// Standard deviation of the noise of a displacement, m.
     pub(super) noise_of_u: f64,
-    /// Scale from displacements to forces, N/m: ratio of their noises.
+    /// Scale from displacements to forces, N/m: ratio of force noise to displacement noise.
     pub(super) scale: f64,
 }
 
@@ -124,7 +124,7 @@ impl Data {
         }
     }
 
-    /// Returns the standard deviation of a force: the given value, or that of the rows, but at least 1e-6 of the range.
+    /// Returns the standard deviation of the noise of a force: the given or the estimated one, but at least 1e-6 of the force range.
     pub(super) fn sigma(&self, known: Option<f64>) -> f64 {
         let (low, high) = extent(&self.force);
         known.or(self.noise).unwrap_or(0.0).max(1e-6 * (high - low))

@@ -1,4 +1,4 @@
-//! Simulated counterpart of the data.
+//! Simulation that a fit compares with the measured data.
 
 use super::Asked;
 use super::data::Data;
@@ -25,8 +25,8 @@ pub(super) struct Free {
 }
 
 impl Free {
-    /// Returns the value at a coordinate of the search. The coordinate is logarithmic, so that the sign is preserved;
-    /// linear if the initial value is 0.
+    /// Returns the parameter value at a coordinate of the search. The coordinate is the logarithm of value over initial value, so that the
+    /// sign is preserved, or the value itself if the initial value is 0.
     pub(super) fn at(&self, place: f64) -> f64 {
         if self.start == 0.0 { place } else { self.start * math::exp(place) }
     }
@@ -37,13 +37,13 @@ impl Free {
     }
 }
 
-/// How the scenario is compared with the data.
+/// Method of comparing the scenario with the data.
 enum Way {
-    /// A contact at constant load is moved along the displacements.
+    /// A contact at constant load is moved along the measured displacements.
     Contact(usize),
-    /// A body is moved along them, and a force channel is compared.
+    /// A body is moved along the measured displacements, and a force channel is compared.
     Led { body: String, force: String },
-    /// The scenario runs unchanged, and both channels are compared.
+    /// The scenario runs unchanged, and its displacement and force channels are compared.
     Run { displacement: String, force: String },
 }
 
@@ -121,7 +121,7 @@ impl<'a> Model<'a> {
         Ok(Self { job, watcher, free, way })
     }
 
-    /// Returns the data in the form needed by this model.
+    /// Returns the measured data as a loop or as a trajectory, whichever this model is compared with.
     pub(super) fn data(&self, measured: &mut Measured, how: &How) -> Result<Data, FitError> {
         let data = match self.way {
             Way::Run { .. } => Data::trajectory(measured),
@@ -145,7 +145,7 @@ impl<'a> Model<'a> {
         if rows < numbers + 3 { Err(FitError::Few(rows, numbers)) } else { Ok(data) }
     }
 
-    /// Returns the forces of the model in the rows of the data. For a trajectory, the scaled displacements follow.
+    /// Returns the simulated forces in the rows of the data; for a trajectory, followed by the scaled displacements.
     pub(super) fn force(&self, place: &[f64], data: &Data) -> Result<Vec<f64>, FitError> {
         if !self.watcher.goes_on() {
             return Err(FitError::Interrupted);
@@ -164,7 +164,7 @@ impl<'a> Model<'a> {
             .iter()
             .zip(place)
             .map(|(free, place)| (free.path.clone(), format!("{:e}", free.at(*place))));
-        // Overrides of the body's motion come first, because a free parameter may belong to it.
+        // Overrides of the body's motion come first, because a free parameter may belong to this motion.
         let all: Vec<(String, String)> = further.iter().cloned().chain(numbers).collect();
         let all: Vec<(&str, &str)> =
             all.iter().map(|(path, value)| (path.as_str(), value.as_str())).collect();
@@ -178,7 +178,7 @@ impl<'a> Model<'a> {
         Ok(Job::new(scenario, self.job.name.clone(), std::path::PathBuf::new())?)
     }
 
-    /// Returns the forces with a body moved along the loop, after some periods.
+    /// Returns the forces in the last period of a run in which a body is moved along the measured loop.
     fn led(&self, place: &[f64], (body, force): (&str, &str), data: &Data) -> Result<Vec<f64>, FitError> {
         let mut points: Vec<[f64; 2]> = data.t.iter().zip(&data.u).map(|(t, u)| [*t, *u]).collect();
         let first = points[0];
@@ -196,7 +196,7 @@ impl<'a> Model<'a> {
         Ok(data.t.iter().map(|t| at(&rows[0], &rows[1], t + start)).collect())
     }
 
-    /// Returns the forces and scaled displacements of an unchanged run.
+    /// Returns the forces and scaled displacements of a run without prescribed displacements.
     fn run(&self, place: &[f64], channels: [&str; 2], data: &Data) -> Result<Vec<f64>, FitError> {
         let rows = self.rows(place, &[], &channels)?;
         let forces = data.t.iter().map(|t| at(&rows[0], &rows[2], *t));

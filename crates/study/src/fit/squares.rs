@@ -10,16 +10,16 @@ use std::cell::Cell;
 
 /// Half the distance of central differences, in logarithms of the parameters.
 const STEP: f64 = 1e-3;
-/// Largest change of a parameter, in factors of e.
+/// Largest change of the logarithm of a parameter.
 const FAR: f64 = 6.0;
-/// Factor on the initial residual that stands for a variant without result; the search then turns back.
+/// Factor on the initial residuals. The product replaces the residuals of a variant without result, so that the search turns away.
 const WALL: f64 = 10.0;
 
-/// Weighted data with a model.
+/// Least-squares problem: model, data and weights.
 pub(super) struct Squares<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) data: &'a Data,
-    /// Weight of each row: inverse variance, relative to that of a force.
+    /// Weight of each row: inverse variance, relative to the inverse variance of the noise of a force.
     pub(super) weights: Vec<f64>,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Found {
 }
 
 impl Squares<'_> {
-    /// Returns the weighted residuals at a point, and the forces of the model with the best offset.
+    /// Returns the weighted residuals at a point, and the forces of the model including the best constant offset.
     fn left(&self, place: &[f64]) -> Result<(DVector<f64>, Vec<f64>), FitError> {
         let mut force = self.model.force(place, self.data)?;
         if self.data.is_loop {

@@ -44,7 +44,7 @@ pub enum MapError {
         /// Error message.
         message: String,
     },
-    /// The grid of runs failed.
+    /// The study with the grid of runs failed.
     #[error(transparent)]
     Study(#[from] StudyError),
     /// No point has a result.

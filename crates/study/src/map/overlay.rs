@@ -11,7 +11,7 @@ const CLASSES: usize = 12;
 /// Measured points by class.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Overlay {
-    /// Name of each class, empty without classes, with its points, SI.
+    /// Name and points of each class, SI; the name is empty if the table has no classes.
     pub classes: Vec<(String, Vec<[f64; 2]>)>,
 }
 

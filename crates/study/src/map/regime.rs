@@ -10,7 +10,7 @@ use stickslip_run::{Job, Watcher};
 
 /// Number of samples in the last period of a run, in addition to events.
 const MOMENTS: usize = 64;
-/// Factor for a margin of which only the sign is known.
+/// Factor on a margin of gross slip of which only the sign is known.
 const LITTLE: f64 = 1e-3;
 /// Relative tolerance for equal times.
 const SAME: f64 = 1e-9;
@@ -44,7 +44,7 @@ impl Regime {
     }
 }
 
-/// Regime with the margins by which stick, partial slip and gross slip are reached; positive if reached.
+/// Slip regime with a margin for stick, partial slip and gross slip; a margin is positive if this regime is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Seen {
     pub(super) regime: Regime,
@@ -91,7 +91,7 @@ impl<'m> Looks<'m> {
         self.runs.load(Ordering::Relaxed)
     }
 
-    /// Returns the scenario at a point, relative to the axes.
+    /// Returns the scenario at a point of the map, given as fractions of both axes.
     fn case(&self, place: [f64; 2]) -> Result<Job, Unseen> {
         let set = [0, 1].map(|axis| self.axes[axis].set(self.axes[axis].at(place[axis])));
         self.job.with(&set).map_err(|error| {
@@ -105,7 +105,7 @@ impl<'m> Looks<'m> {
         self.case(place).is_ok_and(|job| Prescribed::of(&job.model, self.contact).is_some())
     }
 
-    /// Returns the regime at a point, relative to the axes.
+    /// Returns the slip regime at a point of the map, given as fractions of both axes.
     pub(super) fn look(&self, place: [f64; 2]) -> Result<Seen, Unseen> {
         if !self.watcher.goes_on() {
             return Err(Unseen::Interrupted);
@@ -149,8 +149,8 @@ fn prescribed(path: &Prescribed<'_>) -> Seen {
 
 /// Returns the regime over the last period of a run, from the states of the contact.
 ///
-/// The margin of gross slip is computed from the displacements at the same instants, which may miss extremes slightly.
-/// The search for a border uses it as a guess only.
+/// The margin of gross slip is computed from displacements at sampled instants, which may miss extremes slightly. The search for a border
+/// uses this margin as a guess only.
 fn run(job: &Job, contact: usize, watcher: &dyn Watcher) -> Result<Seen, Unseen> {
     let duration = job.scenario.plan.duration;
     let periods = job.scenario.scene.waveforms.iter().filter_map(|named| named.part.period());
@@ -186,7 +186,7 @@ fn run(job: &Job, contact: usize, watcher: &dyn Watcher) -> Result<Seen, Unseen>
     let found = Regime::ALL.into_iter().rev().find(|regime| record.seen[*regime as usize]);
     let mut seen = Seen::of(found.unwrap_or(Regime::Open));
     let margin = record.margin();
-    // If states and margin contradict each other, there is no guess.
+    // If the margin contradicts the sampled states, it is replaced by a small margin with the sign of the states.
     if margin * seen.margins[2] > 0.0 {
         seen.margins[2] = margin;
     } else {
@@ -205,7 +205,7 @@ struct Last<'w> {
     /// Start and end of the observed time, s.
     span: [f64; 2],
     next: usize,
-    /// Whether each state occurred, by its code. Codes of states equal those of regimes.
+    /// Whether each contact state occurred, by state code. The codes of states equal the codes of regimes.
     seen: [bool; 4],
     /// Time and state of the last sample.
     last: [f64; 2],
@@ -221,7 +221,7 @@ impl Last<'_> {
             return;
         }
         let [state, u, d] = self.places.map(at);
-        // A state counts if it persists between two instants. A spring that just reaches its limit has not slipped.
+        // A state counts if it persists between two instants. A spring that only reaches its friction limit has not slipped.
         if at(0) > self.last[0] + SAME * self.span[1]
             && let Some(seen) = self.seen.get_mut(state.min(self.last[1]) as usize)
         {
@@ -233,7 +233,7 @@ impl Last<'_> {
         self.reach = [low.max(u - depth), high.min(u + depth), most.max(depth)];
     }
 
-    /// Returns [max(u-κd) - min(u+κd)]/κd over the recorded instants.
+    /// Returns the margin of gross slip, [max(u-κd) - min(u+κd)]/κd, over the recorded instants.
     fn margin(&self) -> f64 {
         let [low, high, most] = self.reach;
         if most > 0.0 { (low - high) / most } else { 0.0 }

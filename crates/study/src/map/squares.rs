@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-/// Edge of the grid: from the point (i, j) one step in x (0) or in y (1).
+/// Grid edge from the point (i, j) to the next point in x (third number 0) or in y (third number 1).
 pub(super) type Edge = (usize, usize, u8);
 
-/// Returns the lines that separate inside from outside points, as lists of crossed edges. Closed lines end at their first edge.
+/// Returns the lines that separate inside from outside points, as lists of crossed edges. The last edge of a closed line is its first one.
 ///
 /// Cells with an unknown corner have no lines. In a saddle cell, the lower left corner is separated from the others.
 pub(super) fn lines(
@@ -25,7 +25,7 @@ pub(super) fn lines(
         }
     }
     let mut lines = Vec::new();
-    // Open lines first, then closed ones.
+    // Open lines are followed first, then closed lines.
     for is_open in [true, false] {
         let starts: Vec<Edge> = next.keys().copied().collect();
         for start in starts {
@@ -39,7 +39,7 @@ pub(super) fn lines(
     lines
 }
 
-/// Returns the line that starts at an edge and removes its links.
+/// Returns the line that starts at an edge, and removes the links of this line from `next`.
 fn follow(next: &mut BTreeMap<Edge, Vec<Edge>>, start: Edge) -> Vec<Edge> {
     let mut line = vec![start];
     let mut here = start;
@@ -55,7 +55,7 @@ fn follow(next: &mut BTreeMap<Edge, Vec<Edge>>, start: Edge) -> Vec<Edge> {
     line
 }
 
-/// Returns the contour lines of values (column by column) at a level, relative to the axes, with linear interpolation.
+/// Returns the contour lines of values (column by column) at a level, as fractions of the axes, by linear interpolation.
 pub(super) fn contour(values: &[f64], points: [usize; 2], level: f64) -> Vec<Vec<[f64; 2]>> {
     let [columns, rows] = points;
     let value = |i: usize, j: usize| values.get(i * rows + j).copied().filter(|value| value.is_finite());
@@ -70,12 +70,12 @@ pub(super) fn contour(values: &[f64], points: [usize; 2], level: f64) -> Vec<Vec
     lines(points, &inside).into_iter().map(|line| line.into_iter().map(place).collect()).collect()
 }
 
-/// Returns approximately `about` levels within the values: multiples of 1, 2 or 5 times a power of ten.
+/// Returns approximately `about` contour levels between smallest and largest value: multiples of 1, 2 or 5 times a power of ten.
 pub(super) fn levels(values: &[f64], about: f64) -> Vec<f64> {
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     let span = high - low;
-    // A result that is constant except for rounding has no levels.
+    // A result that is constant except for rounding has no contour levels.
     if !(span > 1e-9 * low.abs().max(high.abs()) && span.is_finite()) {
         return Vec::new();
     }

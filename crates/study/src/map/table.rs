@@ -124,8 +124,8 @@ pub fn json(map: &Map, field: &Field) -> String {
     serde_json::to_string(&report(map, field)).unwrap_or_default()
 }
 
-/// Writes the table, the plots and, last, `map.json` into a folder, and deletes the plots named `stale` that are not
-/// among them. Returns the names of all files.
+/// Writes the table, the plots and, last, `map.json` into a folder, and deletes plots named in `stale` that are not written again. Returns
+/// the names of all files.
 ///
 /// # Errors
 /// Error of the operating system.

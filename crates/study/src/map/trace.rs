@@ -1,4 +1,4 @@
-//! Tracing of borders between regimes. Crossings are located on the edges of a coarse grid, then points are added between them.
+//! Tracing of borders between regimes. Border points are located on the edges of a coarse grid, then further points are added between them.
 
 use super::regime::{Looks, Regime, Seen, Unseen};
 use super::squares::{self, Edge};
@@ -8,24 +8,24 @@ use stickslip_stepper::{Bracket, Point, narrow};
 
 /// Minimum number of points of a border: for prescribed motions and for runs.
 const POINTS: [usize; 2] = [40, 12];
-/// Accuracy of a border point, relative to the axes: for prescribed motions and for runs.
+/// Accuracy of a border point, as a fraction of the axes: for prescribed motions and for runs.
 const NEAR: [f64; 2] = [1e-13, 8e-5];
-/// Distances from a chord within which a border is searched for, relative to the chord, tried in turn.
+/// Distances from a chord within which a border is searched for, as fractions of the chord, from the smallest to the largest.
 const ASIDE: [f64; 3] = [0.05, 0.25, 1.0];
-/// Shortest step beyond the end of a border, relative to the axes, and maximum number of steps.
+/// Shortest step beyond the end of a border, as a fraction of the axes, and maximum number of steps.
 const SHORTEST: f64 = 5e-4;
 const MOST_STEPS: usize = 40;
 /// Maximum number of refinements of a line.
 const ROUNDS: usize = 8;
 
-/// Point of a border, relative to the axes, with the regimes on its sides.
+/// Point of a border, as fractions of the axes, with the regimes on both sides of the border.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Crossing {
     place: [f64; 2],
     between: [Regime; 2],
 }
 
-/// Two points, relative to the axes, with their regimes.
+/// Two points of the map, as fractions of the axes, with the regimes at these points.
 type Ends = [([f64; 2], Seen); 2];
 
 /// Computes the regimes of a grid and the borders between them.
@@ -78,10 +78,10 @@ pub(super) fn trace(map: &Map, looks: &Looks<'_>, threads: usize) -> Result<Fiel
     })
 }
 
-/// Locates the border of a regime on the edges crossed by a line. Returns pieces with the same regimes on their sides.
+/// Locates the border of a regime on the edges crossed by a line. Returns pieces of the border, each with the same regimes on both sides.
 ///
-/// If the regime on the upper side exceeds `least`, the border belongs to that regime and is skipped here. Borders that
-/// coincide with the rim of the map are skipped, too.
+/// If the regime on the upper side exceeds `least`, the border belongs to the higher regime and is skipped here. Borders that coincide with
+/// the rim of the map are skipped, too.
 fn crossings(
     looks: &Looks<'_>,
     line: &[Ends],
@@ -100,12 +100,12 @@ fn crossings(
         .collect())
 }
 
-/// Locates a border between two points of which one has at least the regime `least`.
+/// Locates a border between two points, exactly one of which has at least the regime `least`.
 fn cross(looks: &Looks<'_>, [from, to]: Ends, least: Regime, near: f64) -> Result<Crossing, Unseen> {
     let margin = |seen: &Seen| seen.margins[least as usize - 1];
     let at = |part: f64| [0, 1].map(|axis| from.0[axis] + part * (to.0[axis] - from.0[axis]));
     let length = distance(from.0, to.0);
-    // Regimes at the last points on both sides.
+    // Regimes at the last evaluated points on both sides of the border.
     let mut between = [from.1, to.1].map(|seen| seen.regime);
     between.sort_unstable();
     let mut fault = None;
@@ -128,14 +128,14 @@ fn cross(looks: &Looks<'_>, [from, to]: Ends, least: Regime, near: f64) -> Resul
     }
 }
 
-/// Returns the distance of two points, relative to the axes.
+/// Returns the distance of two points whose coordinates are fractions of the axes.
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)).sqrt()
 }
 
 /// Extends a line at both ends to the rim of the map or to another border.
 ///
-/// Each new point is searched for near the extrapolated last chord. The step is halved if none is found.
+/// Each new point is searched for near the extrapolated last chord. The step is halved if the search finds no point.
 fn extended(looks: &Looks<'_>, mut line: Vec<Crossing>, least: Regime) -> Result<Vec<Crossing>, MapError> {
     if line[0].place == line[line.len() - 1].place {
         return Ok(line);
@@ -200,7 +200,7 @@ fn dense(
     Ok(line)
 }
 
-/// Returns the point of a border on the perpendicular bisector of a chord, if one is nearby.
+/// Returns the point of a border on the perpendicular bisector of a chord, if the border is close to the chord.
 fn beside(
     looks: &Looks<'_>,
     [a, b]: [[f64; 2]; 2],

@@ -7,12 +7,12 @@ use crate::each::each;
 /// Distances from the optimum at which the result is evaluated, relative to the range of a coordinate.
 const DISTANCES: [f64; 5] = [1.0 / 512.0, 1.0 / 128.0, 1.0 / 32.0, 1.0 / 8.0, 1.0 / 2.0];
 
-/// The result along one coordinate, with all others at the optimum.
+/// The result along one coordinate, with all other coordinates at the optimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// Name of the coordinate.
     pub name: String,
-    /// SI unit; empty for a coordinate of a waveform shape, which is a fraction of its range.
+    /// SI unit; empty for a coordinate of a waveform shape, whose values are fractions of a range.
     pub unit: &'static str,
     /// Value at the optimum.
     pub best: f64,
@@ -37,8 +37,8 @@ impl Section {
         self.points.iter().map(|(x, value)| ((x - self.best) / (high - low), *value)).collect()
     }
 
-    /// Returns the range in which the result is within a fraction of the optimum, by linear interpolation. An end is
-    /// `None` if the bound of the search is reached first.
+    /// Returns the range in which the result is within a fraction of the optimum, by linear interpolation. An end of the range is `None` if
+    /// the search range ends first.
     #[must_use]
     pub fn range(&self, share: f64) -> [Option<f64>; 2] {
         let Some(at) = self.points.iter().position(|(x, _)| *x == self.best) else { return [None; 2] };
@@ -66,7 +66,7 @@ pub(super) fn most(dimensions: usize) -> usize {
     2 * DISTANCES.len() * dimensions
 }
 
-/// Returns the sections through a point, and the best point on them with its result. The best point is `None` if there are no results.
+/// Returns the sections through a point, and the best point on these sections with its result. The best point is `None` without results.
 pub(super) fn sections(
     space: &Space,
     point: &[f64],

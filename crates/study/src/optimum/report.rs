@@ -11,7 +11,7 @@ use stickslip_scenario::Shaped;
 
 /// Relative distances from the optimum for which ranges are reported.
 const SHARES: [f64; 2] = [0.001, 0.01];
-/// A rate counts as limited from this fraction of the limit on.
+/// Fraction of a rate limit from which on a rate counts as limited.
 const REACHED: f64 = 0.999;
 
 /// Content of `optimum.json`.
@@ -183,9 +183,8 @@ impl Optimum {
         limits
     }
 
-    /// Returns one period of the waveform as a table for a generator: time, value, and value divided by the gain of the
-    /// amplifier. The sample rate is adjusted to a whole number of samples per period. Returns `None` if the study has
-    /// no waveform.
+    /// Returns one period of the optimal waveform as a table for a generator: time, value, and value divided by the gain of the amplifier.
+    /// The sample rate is adjusted to a whole number of samples per period. Returns `None` if the study has no waveform.
     #[must_use]
     pub fn samples(&self, best: &Best, rate: Option<f64>, gain: f64) -> Option<String> {
         let (drawing, period) = self.space.drawing(&best.point)?;
@@ -203,7 +202,7 @@ impl Optimum {
 }
 
 impl Optimum {
-    /// Returns the waveform in the form of a scenario. Returns `None` if the study has no waveform.
+    /// Returns the optimal waveform in the form of a scenario file, or `None` if the study has no waveform.
     #[must_use]
     pub fn waveform(&self, best: &Best) -> Option<String> {
         let (drawing, period) = self.space.drawing(&best.point)?;

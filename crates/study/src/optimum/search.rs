@@ -1,9 +1,9 @@
 //! Multistart optimisation: local searches by the Nelder–Mead simplex method from the best of several Sobol points.
 //!
-//! Source: Nelder, Mead, A simplex method for function minimization (Comput. J. 7, 308, 1965), with the factors of Gao and Han (Comput.
-//! Optim. Appl. 51, 259, 2012) for n coordinates: expansion 1 + 2/n, shrinkage 1 - 1/n. The method uses only + - * / and square roots, so
-//! results have the same bits on every machine. Methods with linear or quadratic models are unsuitable, because results of drives have
-//! sharp ridges. Ridges occur where a contact begins to slip, or where the worst of several results changes.
+//! Source: Nelder and Mead, Computer Journal 7 (1965) 308, with the factors of Gao and Han, Computational Optimization and Applications 51
+//! (2012) 259, for n coordinates: expansion 1 + 2/n, shrinkage 1 - 1/n. The method uses only + - * / and square roots, so results have the
+//! same bits on every machine. Methods with linear or quadratic models are unsuitable, because results of drives have sharp ridges: where a
+//! contact begins to slip, or where another result becomes the worst of several results.
 
 use crate::each::each;
 use crate::sweep::points::{Points, Sampling};
@@ -14,22 +14,22 @@ use std::cell::RefCell;
 
 /// Number of Sobol points per local search.
 pub(crate) const SCREENED: u64 = 4;
-/// Edge length of the first simplex, relative to the ranges.
+/// Edge length of the first simplex, as a fraction of the range of each coordinate.
 const FIRST: f64 = 0.2;
-/// Factor on the edge length after a simplex without improvement.
+/// Factor on the edge length of the next simplex after a simplex search without improvement.
 const SHRINK: f64 = 0.25;
 /// Shortest initial edge length of a simplex.
 const SHORTEST: f64 = 1e-6;
-/// Standard deviation of the results in a simplex below which a new simplex starts. It is relative to the edge length
-/// and to the spread of the Sobol points, the difference between best and median result.
+/// Standard deviation of the results in a simplex below which a new simplex starts, relative to edge length times spread. The spread is the
+/// difference between best and median result of the Sobol points.
 const FLAT: f64 = 1e-4;
-/// Smallest improvement, relative to the spread, for another simplex with the same edge length.
+/// Smallest improvement, relative to the spread of results, for another simplex with the same edge length.
 const GAIN: f64 = 1e-7;
 
-/// Spread if unknown, relative to the best result.
+/// Spread of results if unknown, relative to the best result.
 const LEAST_SPREAD: f64 = 0.1;
 
-/// Evaluation function: larger values are better; NaN without result.
+/// Evaluation function: larger values are better; NaN if there is no result.
 pub(crate) type Judge<'a> = dyn Fn(&[f64]) -> f64 + Sync + 'a;
 
 /// Result of a local search.
@@ -43,7 +43,7 @@ pub(crate) struct Local {
     pub(crate) evaluations: usize,
 }
 
-/// Number of local searches, maximum evaluations of each, seed and number of threads.
+/// Number of local searches, maximum number of evaluations of each search, seed and number of threads.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Effort {
     pub(crate) starts: u64,
@@ -52,14 +52,14 @@ pub(crate) struct Effort {
     pub(crate) threads: usize,
 }
 
-/// Runs all local searches; the first one starts at the present point. Returns `None` if no point has a result.
+/// Runs all local searches; the first starts at the unchanged scenario. Returns `None` if no point has a result.
 pub(crate) fn search(present: &[f64], effort: Effort, judge: &Judge<'_>) -> Option<Vec<Local>> {
     let points = screened(present, effort);
     let values = each(points.len(), effort.threads, |i| judge(&points[i]));
     let mut order: Vec<usize> = (0..points.len()).filter(|i| !values[*i].is_nan()).collect();
     order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
     let [best, middle, worst] = [*order.first()?, order[order.len() / 2], *order.last()?].map(|i| values[i]);
-    // The present point is always one of them.
+    // The point of the unchanged scenario is always among the start points.
     let is_present = |i: &usize| *i == 0;
     let mut chosen: Vec<usize> = order.iter().copied().filter(is_present).collect();
     chosen.extend(order.into_iter().filter(|i| !is_present(i)));
@@ -69,13 +69,13 @@ pub(crate) fn search(present: &[f64], effort: Effort, judge: &Judge<'_>) -> Opti
     Some(each(chosen.len(), effort.threads, local))
 }
 
-/// Runs one more local search from a point better than the ends of all others.
+/// Runs one more local search, from a point better than the results of all other local searches.
 pub(crate) fn again((point, value): (&[f64], f64), evaluations: usize, judge: &Judge<'_>) -> Local {
     let spread = (LEAST_SPREAD * value.abs()).max(f64::MIN_POSITIVE);
     local((point, value), evaluations, (Scale { worst: value - value.abs(), spread }, judge))
 }
 
-/// Returns the present point and the Sobol points.
+/// Returns the point of the unchanged scenario, followed by the Sobol points.
 fn screened(present: &[f64], effort: Effort) -> Vec<Vec<f64>> {
     let count = SCREENED * effort.starts;
     let sobol = Points::new(Sampling::Sobol, present.len(), effort.seed, count);
@@ -89,15 +89,15 @@ fn screened(present: &[f64], effort: Effort) -> Vec<Vec<f64>> {
     std::iter::once(present.to_vec()).chain((0..count).map(point)).collect()
 }
 
-/// Scale of the results. A point without a result gets the worst value.
+/// Scale of the results. The worst result also replaces missing results.
 #[derive(Debug, Clone, Copy)]
 struct Scale {
     worst: f64,
     spread: f64,
 }
 
-/// Runs a sequence of simplex searches. Each starts at the best point with new edges along the axes, which frees a
-/// simplex that has collapsed on a ridge.
+/// Runs a sequence of simplex searches. Each search starts at the best point with new edges along the axes, which frees a simplex that has
+/// collapsed on a ridge.
 fn local(start: (&[f64], f64), most: usize, (scale, judge): (Scale, &Judge<'_>)) -> Local {
     let n = start.0.len();
     let from = (start.0.to_vec(), start.1);
@@ -109,7 +109,7 @@ fn local(start: (&[f64], f64), most: usize, (scale, judge): (Scale, &Judge<'_>))
         let many = n.max(2) as f64;
         let solver = solver.and_then(|solver| solver.with_gamma(1.0 + 2.0 / many));
         let Ok(solver) = solver.and_then(|solver| solver.with_sigma(1.0 - 1.0 / many)) else { break };
-        // The best point is known, however the search ends.
+        // The best point is recorded by the cost function, even if the search fails.
         let problem = Problem { scale, judge, best: &best, most };
         drop(Executor::new(problem, solver).timer(false).run());
         if best.borrow().to.1 - before <= GAIN * scale.spread {
@@ -171,7 +171,7 @@ impl CostFunction for Problem<'_> {
     type Param = Point;
     type Output = f64;
 
-    /// Returns minus the result, relative to the spread, above the worst result. Points outside the unit cube are projected onto it.
+    /// Returns (worst result - result) divided by the spread of results. Points outside the unit cube are projected onto the cube.
     fn cost(&self, point: &Point) -> Result<f64, Error> {
         let mut local = self.best.borrow_mut();
         if local.evaluations >= self.most {

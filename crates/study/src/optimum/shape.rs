@@ -1,25 +1,25 @@
-//! Waveform shapes as points of the unit cube. Every shape is within the limits of window, current and bandwidth.
+//! Waveform shapes as points of the unit cube. Every shape is within the limits of driver window, current and bandwidth.
 
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use stickslip_drive::Waveform;
 use stickslip_scenario::{Basis, Shaped};
 
-/// Smallest amplitude of harmonics, relative to the largest allowed one.
+/// Smallest amplitude of harmonics, relative to the largest amplitude within the driver limits.
 const LEAST_SHARE: f64 = 0.05;
-/// Largest coefficient of harmonic k relative to the first, times k.
+/// Largest coefficient of harmonic k, relative to that of the first harmonic and multiplied by k.
 const WIDEST: f64 = 2.0;
-/// Number of grid points for the extremes of harmonics, per period of the highest one. Newton's method refines the extremes.
+/// Number of grid points, per period of the highest harmonic, from which Newton's method starts to find extremes of a sum of harmonics.
 const GRID: usize = 32;
-/// Number of Newton steps.
+/// Number of steps of Newton's method for an extreme.
 const NEWTON: usize = 4;
 /// Number of samples for the Fourier coefficients of a given waveform.
 const SAMPLES: usize = 1024;
 
-/// Waveform of one point over a period.
+/// One period of the waveform at a point of the search space.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Drawing {
-    /// Values at equal time intervals, with straight lines in between.
+    /// Values at equal time intervals, connected by straight lines.
     Corners(Vec<f64>),
     /// Mean value, and coefficients of sin kωt and cos kωt.
     Harmonics(f64, Vec<[f64; 2]>),
@@ -93,7 +93,7 @@ impl Drawing {
         }
     }
 
-    /// Returns the largest rates down and up, 1/s times the unit of the values.
+    /// Returns the largest falling and rising rates, in the unit of the values per second.
     pub(crate) fn rates(&self, period: f64) -> [f64; 2] {
         match self {
             Self::Corners(values) => {
@@ -129,7 +129,7 @@ impl Drawing {
     }
 }
 
-/// Returns the largest polygon below `wanted` within the rate limits `down` and `up`.
+/// Returns the largest polygon that does not exceed `wanted` and has falling and rising rates of at most `down` and `up`.
 fn slowed(wanted: &[f64], [down, up]: [f64; 2], step: f64) -> Vec<f64> {
     let n = wanted.len();
     let reached = |i: usize| {
@@ -143,7 +143,7 @@ fn slowed(wanted: &[f64], [down, up]: [f64; 2], step: f64) -> Vec<f64> {
     (0..n).map(reached).collect()
 }
 
-/// Returns the factor that makes harmonics as large as window and rates allow.
+/// Returns the largest factor with which a sum of harmonics stays within driver window and rate limits.
 fn largest(shaped: &Shaped, period: f64, terms: &[[f64; 2]], height: f64) -> f64 {
     let [low, high] = shaped.window;
     let by_window = (high - low) / height;
@@ -185,10 +185,10 @@ fn range(terms: &[[f64; 2]]) -> [f64; 2] {
     })
 }
 
-/// Returns the point whose waveform is nearest to a given one of this period.
+/// Returns the point of the unit cube whose shape is nearest to a given waveform.
 pub(crate) fn nearest(shaped: &Shaped, waveform: &Waveform) -> Option<Vec<f64>> {
     let period = waveform.period()?;
-    // Sampled in the second period, after a possible jump at the start.
+    // The waveform is sampled in its second period, after a possible jump at the start.
     let value = |share: f64| {
         let time = period * (1.0 + share);
         waveform.sample(&waveform.piece_at(time), time).value / shaped.gain
@@ -209,8 +209,7 @@ pub(crate) fn nearest(shaped: &Shaped, waveform: &Waveform) -> Option<Vec<f64>> 
             };
             let [s, c] = of(1);
             let length = s * s + c * c;
-            // Rotated to phase 0 of the first harmonic and divided by its amplitude: z_k e^{ikφ} with e^{iφ} =
-            // z̄₁/|z₁|.
+            // The harmonics are shifted to phase 0 of the first harmonic and divided by its amplitude: z_k e^{ikφ} with e^{iφ} = z̄₁/|z₁|.
             let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
             let turn = [s / length.sqrt(), -c / length.sqrt()];
             let mut turned = turn;

@@ -1,17 +1,17 @@
-//! Search space: from a point of the unit cube to parameters of the scenario and a waveform.
+//! Search space of an optimisation: conversion of a point of the unit cube to parameters of the scenario and a waveform.
 
 use super::shape::{self, Drawing};
 use crate::number::text;
 use stickslip_run::Job;
 use stickslip_scenario::{Goal, Parameter, Shaped};
 
-/// Parameters and waveform of an optimisation. The coordinates are the parameters of `over`, then the period of the
-/// waveform if it has a range, then its shape.
+/// Parameters and waveform of an optimisation. The coordinates are the parameters of `over`, then the period of the waveform if the study
+/// varies the period, then the shape of the waveform.
 #[derive(Debug, Clone)]
 pub(crate) struct Space {
     over: Vec<(Parameter, [f64; 2])>,
     shaped: Option<Shaped>,
-    /// Periods of named waveforms that are not optimised. They are varied by ± 1 % for a robust optimum.
+    /// Periods of named waveforms that are not optimised. A robust optimum includes variations of these periods by ± 1 %.
     periods: Vec<Parameter>,
 }
 
@@ -26,7 +26,7 @@ impl Space {
         Self { over: goal.over.clone(), shaped, periods }
     }
 
-    /// Returns whether there is a period that can be varied.
+    /// Returns whether the model has a period that can be varied.
     pub(crate) fn has_period(&self) -> bool {
         self.shaped.is_some() || !self.periods.is_empty()
     }
@@ -35,7 +35,7 @@ impl Space {
         self.shaped.as_ref()
     }
 
-    /// Returns the names, units and ranges of the coordinates that are numbers.
+    /// Returns the names, units and ranges of all coordinates except those of the waveform shape.
     pub(crate) fn numbers(&self) -> Vec<(String, &'static str, [f64; 2])> {
         let over = self.over.iter().map(|(number, range)| (number.path.clone(), number.unit, *range));
         let period = self.shaped.iter().filter(|shaped| shaped.period[0] < shaped.period[1]);
@@ -48,7 +48,7 @@ impl Space {
         numbers.chain(self.shaped.iter().flat_map(shape::names)).collect()
     }
 
-    /// Returns the value of a coordinate: a number in SI, or a fraction of the range of a shape coordinate.
+    /// Returns the value of a coordinate: a number in SI units, or the fraction `share` itself for a coordinate of the waveform shape.
     pub(crate) fn value(&self, coordinate: usize, share: f64) -> f64 {
         self.numbers().get(coordinate).map_or(share, |(.., range)| between(*range, share))
     }
@@ -89,7 +89,7 @@ impl Space {
         self.periods.iter().any(|period| period.path == number.path)
     }
 
-    /// Returns the point nearest to the unchanged scenario. Parameters without a value are at the middle of their range.
+    /// Returns the point nearest to the unchanged scenario. Parameters without a value are set to the middle of their range.
     pub(crate) fn present(&self, job: &Job) -> Vec<f64> {
         let share = |[low, high]: [f64; 2], value: f64| ((value - low) / (high - low)).clamp(0.0, 1.0);
         let over =
@@ -107,7 +107,7 @@ impl Space {
     }
 }
 
-/// Returns the value at a fraction of a range, exact at both ends.
+/// Returns the value at a fraction of a range, without rounding error at both ends.
 fn between([low, high]: [f64; 2], share: f64) -> f64 {
     if share >= 1.0 { high } else { low + (high - low) * share }
 }

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_run::{Job, Watcher};
 use stickslip_scenario::ScenarioError;
 
-/// Largest relative change of a result in the search for the scale of a parameter.
+/// Largest relative change of a result at the scale of a parameter whose value is 0.
 const LITTLE: f64 = 0.1;
 
 /// Watcher that can interrupt, but receives no progress.
@@ -21,20 +21,20 @@ impl Watcher for Silent<'_> {
     }
 }
 
-/// Environment in which variants are run.
+/// Settings for runs of variants, with a tolerance and a number of threads.
 pub(super) struct Bench<'a> {
     pub(super) asked: &'a Sensitivity,
     /// Tolerance of the local error per time step.
     pub(super) tolerance: f64,
     pub(super) cores: usize,
     pub(super) watcher: &'a (dyn Watcher + Sync),
-    /// True if a result is computed from rows, such as a peak load. Other results need only instants and events.
+    /// True if a result, such as a peak load, needs rows of the time histories. Other results need only the last row and events.
     pub(super) has_rows: bool,
     pub(super) done: &'a AtomicUsize,
 }
 
 impl Bench<'_> {
-    /// Runs variants, given by index of the parameter, relative distance and level flag. Returns them grouped by parameter.
+    /// Runs variants, given by index of the parameter, relative distance and level flag. Returns the results grouped by parameter.
     pub(super) fn run(&self, scales: &[f64], variants: &[(usize, (f64, bool))]) -> Vec<Vec<Tried>> {
         let asked = self.asked;
         let tried = each(variants.len(), self.cores, |place| {
@@ -70,7 +70,7 @@ impl Bench<'_> {
         asked.journal.found(&(of, self.tolerance), run, |found| !matches!(found, Err(Missing::NotRun)))
     }
 
-    /// Returns the results of the unchanged scenario at this tolerance.
+    /// Returns the results of the unchanged scenario at the tolerance of these runs.
     pub(super) fn own(&self) -> Vec<Option<f64>> {
         let asked = self.asked;
         let refused = |error: ScenarioError| Missing::Refused(error.to_string());
@@ -80,8 +80,8 @@ impl Bench<'_> {
         sample.map_or_else(|_| Vec::new(), |sample| sample.figures)
     }
 
-    /// Returns the scale of each parameter: its absolute value. For a parameter that is 0, it is the largest distance
-    /// with the same events and nearly the same results.
+    /// Returns the scale of each parameter: its absolute value. The scale of a parameter that is 0 is the largest distance with the same
+    /// events and nearly the same results.
     pub(super) fn scales(&self) -> Vec<f64> {
         let quantities = &self.asked.quantities;
         let large = |quantity: &Quantity| match quantity.value {
@@ -99,7 +99,7 @@ impl Bench<'_> {
         scales
     }
 
-    /// Returns whether the events are the same and results change little.
+    /// Returns whether a variant has the same events as the unchanged scenario and little change in the results.
     fn is_little(&self, tried: &Tried) -> bool {
         let Ok(sample) = &tried.sample else { return false };
         let figures = self.asked.figures.iter().zip(&sample.figures);

@@ -1,4 +1,4 @@
-//! Derivative of a result with respect to a parameter, or the reason why there is none.
+//! Derivative of a result with respect to a parameter, or the reason why the derivative does not exist.
 
 use super::ladder::{self, Tried};
 use super::sample::{Happened, Missing};
@@ -9,9 +9,9 @@ use super::stencil::{Estimate, Level, Wanted, bends_near_by, estimate};
 pub struct Slope {
     /// Change of the result per change of the parameter, SI.
     pub value: f64,
-    /// Error of the slope, in the same unit.
+    /// Error of the slope, in the unit of the slope.
     pub error: f64,
-    /// Largest change of the parameter that was used, in its unit.
+    /// Largest change of the parameter from which the slope was computed, in the unit of the parameter.
     pub reach: f64,
 }
 
@@ -24,7 +24,7 @@ pub enum Derivative {
     Split {
         /// Slope below the value of the parameter.
         below: Result<Slope, Missing>,
-        /// Slope above it.
+        /// Slope above the value of the parameter.
         above: Result<Slope, Missing>,
         /// Kind of difference.
         why: Split,
@@ -33,31 +33,31 @@ pub enum Derivative {
     Unknown(Missing),
 }
 
-/// Difference between the two sides of a parameter value.
+/// Difference between slopes, results or events on both sides of a parameter value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Split {
     /// The slopes differ.
     Kink,
-    /// The result jumps by these amounts, close below and close above.
+    /// The result jumps by these amounts, immediately below and immediately above the parameter value.
     Jump([f64; 2]),
-    /// The events differ: descriptions with their numbers in the scenario and close to it.
+    /// The events differ: descriptions of events with their numbers in the unchanged scenario and close to it.
     Events(Vec<String>),
-    /// Only one side has a slope.
+    /// The result has a slope on one side only.
     OneSided,
 }
 
 /// Factor on the errors above which two numbers count as different.
 const APART: f64 = 2.0;
-/// Smallest relevant jump relative to the result; smaller ones are within the accuracy of runs.
+/// Smallest relevant jump relative to the result; smaller jumps are within the accuracy of runs.
 const LEAST_JUMP: f64 = 1e-9;
 
-/// Data on one side of a parameter value.
+/// Runs on one side of a parameter value.
 struct Half<'a> {
-    /// Runs on this side, the outermost first: distance, value, events.
+    /// Runs on this side, beginning with the largest distance: distance, value of the result, events.
     runs: Vec<(f64, f64, &'a Happened)>,
-    /// Events close to the value, if they do not depend on the distance.
+    /// Events close to the parameter value, if these events do not depend on the distance.
     settled: Option<&'a Happened>,
-    /// Reason of the nearest missing value.
+    /// Reason why the nearest run without the result lacks it.
     missing: Option<Missing>,
 }
 
@@ -67,7 +67,7 @@ pub(super) struct Near<'a> {
     pub(super) tried: &'a [Tried],
     /// Index of the result.
     pub(super) figure: usize,
-    /// Value of the result and events for the unchanged scenario. No events for results that are not from a run.
+    /// Value of the result and events of the unchanged scenario. `None` as events for results that are not from a run.
     pub(super) own: (f64, Option<&'a Happened>),
     /// Standard deviation of the numerical noise.
     pub(super) noise: f64,
@@ -129,10 +129,10 @@ impl Near<'_> {
         }
     }
 
-    /// Returns the runs on a side with the same events as close to the value.
+    /// Returns the runs on one side with the same events as close to the parameter value.
     ///
-    /// If the events are never settled, all runs are returned. An example are small loops that close or not depending
-    /// on rounding; their effect is visible in the result.
+    /// If the events depend on the distance, all runs are returned. An example are small loops that close or not depending on rounding; the
+    /// effect of such loops is visible in the result.
     fn levels(&self, half: &Half<'_>, halves: &[Half<'_>; 2]) -> Vec<Level> {
         let is_settled = halves.iter().all(|half| half.settled.is_some() || half.runs.is_empty());
         let wanted = half.settled.filter(|_| is_settled);
@@ -141,7 +141,7 @@ impl Near<'_> {
         runs.map(|(at, value, _)| vec![(*at, *value)]).collect()
     }
 
-    /// Returns the jump of the result on a side, if there is one.
+    /// Returns the jump of the result on one side of the parameter value, if there is a jump.
     fn jump(&self, levels: &[Level]) -> Option<f64> {
         let limit = estimate(levels, None, Wanted::Value, self.noise)?;
         let jump = limit.value - self.own.0;
@@ -149,7 +149,7 @@ impl Near<'_> {
         (jump.abs() > least).then_some(jump)
     }
 
-    /// Returns the differences between the events close below and close above.
+    /// Returns the differences between the events immediately below and immediately above the parameter value.
     fn changes(&self, halves: &[Half<'_>; 2]) -> Vec<String> {
         match (self.own.1, [halves[0].settled, halves[1].settled]) {
             (Some(own), [Some(below), Some(above)]) if below != above => {
@@ -165,18 +165,18 @@ fn split([below, above]: [Result<Slope, Missing>; 2], why: Split) -> Derivative 
     Derivative::Split { below, above, why }
 }
 
-/// Returns pairs of levels at the same distance on both sides.
+/// Returns pairs of runs at the same distance on both sides of the parameter value.
 fn pairs(below: &[Level], above: &[Level]) -> Vec<Level> {
     let distance = |level: &Level| level.first().map_or(0.0, |(at, _)| at.abs());
     let opposite = |level: &Level| {
         let own = distance(level);
-        // Parameter values are rounded.
+        // Distances differ slightly, because parameter values are rounded.
         below.iter().find(|other| (distance(other) / own - 1.0).abs() < 0.25)
     };
     above.iter().filter_map(|level| Some([opposite(level)?.as_slice(), level.as_slice()].concat())).collect()
 }
 
-/// Describes the events whose number differs from that of the unchanged scenario.
+/// Returns descriptions of the events whose number differs from that of the unchanged scenario.
 fn differences(side: &str, own: &Happened, other: &Happened) -> Vec<String> {
     let mut all: Vec<_> = own.keys().chain(other.keys()).collect();
     all.sort();
@@ -222,7 +222,7 @@ impl Derivative {
         }
     }
 
-    /// Returns the slopes with their sides; no side if there is one derivative.
+    /// Returns the slopes with the names of their sides. The name is `None` if one derivative holds on both sides.
     #[must_use]
     pub fn sides(&self) -> Vec<(Option<&'static str>, Result<Slope, Missing>)> {
         match self {
@@ -234,14 +234,14 @@ impl Derivative {
         }
     }
 
-    /// Returns the largest absolute slope, or `None`.
+    /// Returns the largest absolute slope, or `None` without a slope.
     #[must_use]
     pub fn steepest(&self) -> Option<f64> {
         let slopes = self.sides().into_iter().filter_map(|(_, slope)| Some(slope.ok()?.value.abs()));
         slopes.reduce(f64::max)
     }
 
-    /// Returns an explanation, if the derivative needs one.
+    /// Returns an explanation if the derivative does not exist or differs between both sides.
     #[must_use]
     pub fn words(&self) -> Option<String> {
         match self {

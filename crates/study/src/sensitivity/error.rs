@@ -1,4 +1,4 @@
-//! Errors of a whole sensitivity analysis. Errors of a single derivative are in its row.
+//! Errors that concern a whole sensitivity analysis. Errors of a single derivative are stored in the derivative.
 
 use crate::steady::SteadyError;
 use stickslip_run::Refusal;
@@ -14,7 +14,7 @@ pub enum SensitivityError {
     /// The key path does not name a number that can be varied continuously.
     #[error(transparent)]
     Path(#[from] ScenarioError),
-    /// The scenario does not give the parameter.
+    /// The scenario does not give a value to the parameter.
     #[error(
         "{file}: {path} has no value in the file\n   help: write a value into the file, or set it with --set {path}=VALUE"
     )]
@@ -30,7 +30,7 @@ pub enum SensitivityError {
     /// The scenario has no parameters.
     #[error("{0}: has no parameter with a derivative\n   help: name one, --to PATH")]
     NoQuantity(String),
-    /// No run has this result.
+    /// No run of any scenario has a result of this name.
     #[error("\"{name}\": there is no such result{}", help.as_ref().map_or(String::new(), |help| format!("\n   help: {help}")))]
     NoFigure {
         /// Requested name.
@@ -38,7 +38,7 @@ pub enum SensitivityError {
         /// Suggested name, as help text.
         help: Option<String>,
     },
-    /// Runs of this scenario do not have the result, but others do.
+    /// Runs of this scenario do not have the result, but runs of other scenarios do.
     #[error(
         "\"{name}\": runs of {file} have no such result\n   help: `stickslip explain {name}` explains it; summary.json has the results of a run"
     )]

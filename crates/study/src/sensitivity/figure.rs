@@ -35,7 +35,7 @@ pub(super) enum Reading {
     SteadySpeed,
 }
 
-/// Default results of a drive, and of each contact if there is no drive.
+/// Default results of a drive, and default results of each contact if there is no drive.
 const DRIVE: [&str; 5] = [
     "steps.last_m",
     "steps.mean_speed_m_s",
@@ -143,7 +143,7 @@ pub(super) fn by_default(job: &Job, summary: &Value) -> Vec<String> {
         leaves.iter().any(|(known, value)| known == name && value.as_f64().is_some_and(|value| value != 0.0))
     };
     let drive: Vec<String> = drive.filter(is_told).collect();
-    // The results of a drive are more useful than the loops of its contacts.
+    // For a drive, steps and losses are more useful than results of the loops of its contacts.
     if drive.first().is_some_and(|name| name.starts_with("steps.")) {
         drive
     } else {

@@ -1,55 +1,54 @@
-//! Slope from four runs: two distances on both sides, and the value of the scenario.
+//! Slope from four runs at two distances on both sides of the parameter value, and the run of the unchanged scenario.
 
 use super::Slope;
 
-/// Ratio of the outer to the inner distance.
+/// Ratio of the outer to the inner distance of a pair of runs.
 pub(super) const RATIO: f64 = 4.0;
 /// Factor from the standard deviation of the noise to an error bound.
 const HARDLY_ANY: f64 = 4.0;
-/// Largest relative deviation from the expected decrease of the slope difference between both sides. A larger deviation
-/// indicates a corner.
+/// Largest relative deviation of the difference between both sides' slopes from its expected decrease. A larger deviation indicates a
+/// corner.
 const KINK: f64 = 0.5;
 
 /// Values of a result at 0, ±h/4 and ±h.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Five {
     own: f64,
-    /// Outer and inner pair: values below and above, and the distance.
+    /// Outer and inner pair of runs: values below and above, and the distance.
     pairs: [([f64; 2], f64); 2],
 }
 
 impl Five {
-    /// Creates it from the own value and those at -h, h, -h/4 and h/4, each with its distance.
+    /// Creates the stencil from the values of the result at 0, -h, h, -h/4 and h/4, each with its distance.
     pub(super) fn new([(_, own), below, above, near_below, near_above]: [(f64, f64); 5]) -> Self {
         let pair = |below: (f64, f64), above: (f64, f64)| ([below.1, above.1], 0.5 * (above.0 - below.0));
         Self { own, pairs: [pair(below, above), pair(near_below, near_above)] }
     }
 
-    /// Returns the central difference of a pair.
+    /// Returns the central difference of a pair of runs.
     fn central(&self, pair: usize) -> f64 {
         let ([below, above], distance) = self.pairs[pair];
         (above - below) / (2.0 * distance)
     }
 
-    /// Returns the second difference of a pair.
+    /// Returns the second difference of a pair of runs.
     fn bend(&self, pair: usize) -> f64 {
         let ([below, above], _) = self.pairs[pair];
         (above - self.own) + (below - self.own)
     }
 
     /// Returns the standard deviation of the noise of a value, from the fourth difference of the five values. For a smooth function the
-    /// second difference of the inner pair is a sixteenth of that of the outer pair.
+    /// second difference of the inner pair is a sixteenth of the second difference of the outer pair.
     pub(super) fn noise(&self) -> f64 {
         let square = RATIO * RATIO;
-        // For independent noise the variance of this difference is 2 (r⁴ + 1) + 4 (r² - 1)² times that of a value.
+        // For independent noise, the variance of the fourth difference is 2 (r⁴ + 1) + 4 (r² - 1)² times the variance of a value.
         let variance = 2.0 * (square * square + 1.0) + 4.0 * (square - 1.0) * (square - 1.0);
         (square * self.bend(1) - self.bend(0)).abs() / variance.sqrt()
     }
 
-    /// Returns the slope at 0 with its error: Richardson's extrapolation of both central differences (L. F. Richardson,
-    /// *Phil. Trans. R. Soc. A* 210 (1911) 307) or the outer one, whichever has the
-    /// smaller error. Returns `None` at a corner, where the difference of both sides' slopes is not proportional to the
-    /// distance.
+    /// Returns the slope at 0 with its error: Richardson's extrapolation of both central differences (*Philosophical Transactions of the
+    /// Royal Society A* 210 (1911) 307) or the outer central difference, whichever has the smaller error. Returns `None` at a corner, where
+    /// the difference of both sides' slopes is not proportional to the distance.
     pub(super) fn slope(&self, noise: f64) -> Option<Slope> {
         let [outer, inner] = [0, 1].map(|pair| self.bend(pair) / self.pairs[pair].1);
         let doubt = HARDLY_ANY * 2.5 * noise / self.pairs[1].1;
@@ -61,8 +60,8 @@ impl Five {
         let square = RATIO * RATIO;
         let missed = (near - far) / (square - 1.0);
         let noises = self.pairs.map(|(_, distance)| HARDLY_ANY * noise / (2.0_f64.sqrt() * distance));
-        // The difference of both central differences gives the error from the third derivative. The remaining error is
-        // of the order of its square.
+        // The difference of both central differences gives the error due to the third derivative. The remaining error is of the order of
+        // the square of this error.
         let left = (missed * missed / near.abs().max(f64::MIN_POSITIVE)).min(missed.abs());
         let both = (near + missed, left + noises[1] * square / (square - 1.0) + missed.abs() / square);
         let one = (far, missed.abs() * square + noises[0]);

@@ -19,9 +19,9 @@ pub struct Quantity {
 
 /// Longest list whose numbers are parameters. Longer lists are data, such as the points of a waveform.
 const LIST: usize = 4;
-/// Sections of the scenario whose entries only have an effect if another part names them.
+/// Sections of the scenario whose entries have an effect only if another part refers to them by name.
 const LISTS: [&str; 2] = ["materials", "waveforms"];
-/// Keys that only limit a duration.
+/// Keys that only limit the duration of a waveform.
 const LENGTHS: [&str; 1] = ["cycles"];
 
 impl Quantity {
@@ -37,7 +37,7 @@ impl Quantity {
         }
     }
 
-    /// Returns all parameters of the model, without zeros and without unused materials and waveforms.
+    /// Returns all parameters of the model, except parameters with the value 0 and those of unused materials and waveforms.
     pub(super) fn all(job: &Job) -> Vec<Self> {
         let mut tree: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
         let mut named = HashSet::new();
@@ -54,7 +54,7 @@ impl Quantity {
     }
 }
 
-/// Collects all strings except keys.
+/// Collects all strings in the values of a JSON tree.
 fn strings(here: &Value, found: &mut HashSet<String>) {
     match here {
         Value::Object(entries) => entries.values().for_each(|inner| strings(inner, found)),
@@ -73,7 +73,7 @@ fn leaves(path: String, here: &Value, found: &mut Vec<String>) {
                 leaves(path, inner, found);
             }
         }
-        // Parts of a scenario may be in lists, too.
+        // Lists of objects contain parts of the scenario, such as loads.
         Value::Array(entries) if entries.len() <= LIST || entries.iter().all(Value::is_object) => {
             entries.iter().enumerate().for_each(|(i, inner)| leaves(format!("{path}[{i}]"), inner, found));
         }

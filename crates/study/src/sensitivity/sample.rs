@@ -17,9 +17,9 @@ pub(super) type Happened = BTreeMap<(String, String), usize>;
 /// Results of a variant.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Sample {
-    /// Results in their order; `None` if missing.
+    /// Values of all results in the requested order; `None` for a missing result.
     pub(super) figures: Vec<Option<f64>>,
-    /// Events of the run; empty without a run.
+    /// Numbers of events of the run; empty without a run.
     #[serde(with = "crate::journal::pairs")]
     pub(super) happened: Happened,
 }
@@ -27,10 +27,10 @@ pub(super) struct Sample {
 /// Reason why a result is missing.
 #[derive(Debug, Clone, PartialEq, Error, Serialize, Deserialize)]
 pub enum Missing {
-    /// The command was interrupted before.
+    /// The command was interrupted before this run.
     #[error("not run")]
     NotRun,
-    /// The value does not give a valid scenario.
+    /// The parameter value gives an invalid scenario.
     #[error("refused: {0}")]
     Refused(String),
     /// The run stopped early.
@@ -39,7 +39,7 @@ pub enum Missing {
     /// The run does not have this result.
     #[error("the result does not exist")]
     Absent,
-    /// The values do not approach a smooth curve at any distance.
+    /// The results do not approach a smooth curve at any distance.
     #[error("the result does not change smoothly")]
     Rough,
 }
@@ -51,7 +51,7 @@ pub(super) struct Ran {
     happened: Happened,
 }
 
-/// Events this close to the end of a run, relative to its duration, are ignored. Rounding decides on which side of the end they are.
+/// Smallest distance of an event to the end of a run, relative to its duration. Rounding decides whether closer events belong to the run.
 const END: f64 = 1e-9;
 
 impl Ran {
@@ -65,7 +65,7 @@ impl Ran {
         self.happened
     }
 
-    /// Runs a job.
+    /// Runs a scenario in memory.
     pub(super) fn of(job: &Job, watcher: &dyn Watcher) -> Result<Self, Missing> {
         let outcome = job.run(watcher);
         match &outcome.error {
@@ -87,7 +87,7 @@ impl Ran {
             .skip(1)
             .filter_map(|channel| Some((channel.name.clone(), last(&channel.name)?)));
         let end = end.collect();
-        // The summary consists of numbers and strings, for which JSON has no errors.
+        // Serialisation cannot fail, because the summary consists of numbers and strings.
         let summary = serde_json::to_value(Summary::new(job, &outcome)).unwrap_or_default();
         Ok(Self { summary, end, happened })
     }
@@ -108,30 +108,30 @@ pub(super) fn ready(mut scenario: Scenario, name: &str, tolerance: f64) -> Resul
     Job::new(scenario, name.to_owned(), PathBuf::new())
 }
 
-/// Returns a job with another value of a parameter.
+/// Returns the scenario with another value of a parameter.
 pub(super) fn variant(job: &Job, path: &str, value: f64, tolerance: f64) -> Result<Job, Missing> {
-    // The resolved scenario contains defaults and the points of tables.
+    // The resolved scenario contains default values and the points of tables.
     let value = format!("{value:e}");
     let scenario = Scenario::from_str_with(&job.resolved, &job.name, "", &[(path, &value)]);
     let refused = |error: ScenarioError| Missing::Refused(one_line(&error.to_string()).to_owned());
     ready(scenario.map_err(refused)?, &job.name, tolerance).map_err(refused)
 }
 
-/// Returns a job with rows at start and end only.
+/// Returns the scenario with output rows only at start and end.
 pub(super) fn without_rows(mut job: Job) -> Job {
     job.scenario.plan.every = Some(job.scenario.plan.duration);
     job
 }
 
 impl Sample {
-    /// Computes results of a job.
+    /// Computes the results of a variant.
     pub(super) fn of(
         job: &Job,
         figures: &[Figure],
         tolerance: f64,
         watcher: &dyn Watcher,
     ) -> Result<Self, Missing> {
-        // Reading and building take time before the run.
+        // Reading and building a scenario take time before the run.
         if !watcher.goes_on() {
             return Err(Missing::NotRun);
         }
@@ -159,7 +159,7 @@ impl Sample {
     }
 }
 
-/// Returns step length, m, and mean velocity, m/s, of the periodic orbit. Returns `None` if none is found.
+/// Returns step length, m, and mean velocity, m/s, of the periodic orbit, or `None` if no orbit is found.
 fn steadily(job: &Job, tolerance: f64, watcher: &dyn Watcher) -> Result<Option<[f64; 2]>, Missing> {
     match find_steady(job, tolerance, watcher) {
         Ok(found) => Ok(found),
@@ -168,7 +168,7 @@ fn steadily(job: &Job, tolerance: f64, watcher: &dyn Watcher) -> Result<Option<[
     }
 }
 
-/// Returns the same as [`steadily`], with the reason if none is found.
+/// Returns step length and velocity as [`steadily`] does, or the reason why no orbit is found.
 pub(super) fn find_steady(
     job: &Job,
     tolerance: f64,

@@ -1,19 +1,18 @@
 //! Slopes and limits by polynomial extrapolation from both sides or one side, with error estimates.
 //!
-//! The polynomial through values at geometrically decreasing distances is Richardson's extrapolation (L. F. Richardson,
-//! *Phil. Trans. R. Soc. A* 210 (1911) 307). Large distances cause truncation
-//! errors, small distances magnify noise. As in C. J. F. Ridders, *Adv. Eng. Softw.* 4 (1982) 75, all ranges of
-//! neighbouring distances are tried. The truncation error is the change if the
-//! outermost or innermost distance is omitted. The noise is that of the values times the norm of the weights. The range
-//! with the smallest sum of both is chosen.
+//! The polynomial through values at geometrically decreasing distances is Richardson's extrapolation (*Philosophical Transactions of the
+//! Royal Society A* 210 (1911) 307). Large distances cause truncation errors, small distances magnify noise. As in Ridders, *Advances in
+//! Engineering Software* 4 (1982) 75, all ranges of neighbouring distances are tried. The truncation error is the change of the estimate if
+//! the outermost or innermost distance is omitted. The noise of the estimate is the noise of the values times the norm of the weights. The
+//! range with the smallest sum of truncation error and noise is chosen.
 //!
-//! Outer distances may agree by accident, for example beyond a corner. A range that contradicts one nearer to the point
-//! is rejected, and its error is at least its difference to the next two.
+//! Outer distances may agree by accident, for example beyond a corner. A range that contradicts a range nearer to the point is rejected.
+//! The error of a range is at least its difference to the next two ranges.
 
-/// Values at a distance, or at a pair of distances on both sides.
+/// Values at one distance, or at a pair of distances on both sides.
 pub(super) type Level = Vec<(f64, f64)>;
 
-/// Estimate with its error and the largest distance used.
+/// Estimate with its error and the largest distance from which it was computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Estimate {
     pub(super) value: f64,
@@ -21,7 +20,7 @@ pub(super) struct Estimate {
     pub(super) reach: f64,
 }
 
-/// Requested quantity at the point itself.
+/// Requested quantity, evaluated at distance 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
     Value,
@@ -31,7 +30,7 @@ pub(super) enum Wanted {
 /// Minimum and maximum number of distances in a range. More distances would only add rounding errors.
 const FEWEST: usize = 3;
 const MOST: usize = 4;
-/// Number of inner ranges that must agree within the error, because a single one may agree by accident.
+/// Number of inner ranges that must agree within the error, because a single range may agree by accident.
 const WITNESSES: usize = 2;
 /// Smallest relevant truncation error, relative to the slope.
 const COUNTS: f64 = 1e-6;
@@ -41,7 +40,7 @@ const HARDLY_ANY: f64 = 4.0;
 /// Estimate from one range of levels.
 struct Stretch {
     estimate: Estimate,
-    /// Truncation error, a part of the error.
+    /// Truncation error, which is one part of the error.
     bends: f64,
 }
 
@@ -61,8 +60,8 @@ fn stretch(levels: &[Level], own: Option<f64>, wanted: Wanted, noise: f64) -> St
     Stretch { estimate: Estimate { value, error, reach }, bends }
 }
 
-/// Returns the best estimate from levels, the outermost first. `own` is the value at the point itself if it belongs to
-/// them. Returns `None` for fewer than three levels.
+/// Returns the best estimate from levels, the outermost first. `own` is the value at distance 0, if it belongs to the same smooth branch.
+/// Returns `None` for fewer than three levels.
 pub(super) fn estimate(levels: &[Level], own: Option<f64>, wanted: Wanted, noise: f64) -> Option<Estimate> {
     let mut best: Option<Estimate> = None;
     // Best estimate for each outermost distance; the innermost last.
@@ -84,7 +83,7 @@ pub(super) fn estimate(levels: &[Level], own: Option<f64>, wanted: Wanted, noise
     best
 }
 
-/// Returns whether closer levels would improve the slope: truncation errors dominate noise and are relevant.
+/// Returns whether smaller distances would improve the slope: truncation errors are relevant and exceed the noise.
 pub(super) fn bends_near_by(levels: &[Level], own: Option<f64>, noise: f64) -> bool {
     let Some(first) = levels.len().checked_sub(FEWEST) else { return false };
     let Stretch { estimate: Estimate { value, error, .. }, bends } =
@@ -92,7 +91,7 @@ pub(super) fn bends_near_by(levels: &[Level], own: Option<f64>, noise: f64) -> b
     bends > 0.5 * error && bends > COUNTS * value.abs()
 }
 
-/// Returns value or slope at 0 of the polynomial through some points, and the noise amplification.
+/// Returns value or slope at 0 of the polynomial through some points, and the factor by which noise is amplified.
 fn extrapolate(points: &[(f64, f64)], wanted: Wanted) -> (f64, f64) {
     let weights = (0..points.len()).map(|i| weight(points, i, wanted));
     let (mut value, mut squares) = (0.0, 0.0);
@@ -103,7 +102,7 @@ fn extrapolate(points: &[(f64, f64)], wanted: Wanted) -> (f64, f64) {
     (value, squares.sqrt())
 }
 
-/// Returns the weight of point `i`: value or slope at 0 of the Lagrange polynomial.
+/// Returns the weight of point `i`: value or slope of its Lagrange polynomial at 0.
 fn weight(points: &[(f64, f64)], i: usize, wanted: Wanted) -> f64 {
     let own = points[i].0;
     let product = |left_out: usize| -> f64 {
@@ -120,8 +119,8 @@ fn weight(points: &[(f64, f64)], i: usize, wanted: Wanted) -> f64 {
 
 /// Returns the standard deviation of noise from fourth differences of equidistant values. Returns `None` for fewer than five values.
 ///
-/// Smooth functions have small fourth differences; for independent noise, their variance is 70 times its own (J. J.
-/// Moré, S. M. Wild, *SIAM J. Sci. Comput.* 33 (2011) 1292).
+/// Smooth functions have small fourth differences. For independent noise, the variance of a fourth difference is 70 times the variance of a
+/// value (Moré and Wild, *SIAM Journal on Scientific Computing* 33 (2011) 1292).
 pub(super) fn noise(values: &[f64]) -> Option<f64> {
     let fourth = |w: &[f64]| w[0] - 4.0 * w[1] + 6.0 * w[2] - 4.0 * w[3] + w[4];
     let squares: Vec<f64> = values.windows(5).map(|window| fourth(window).powi(2) / 70.0).collect();

@@ -11,11 +11,11 @@ use stickslip_run::Real;
 use stickslip_run::files::{PARTIAL_SENSITIVITY, SENSITIVITY};
 use stickslip_run::folder::Folder;
 
-/// Names of table and report, of complete and of interrupted derivatives. Interrupted ones do not replace complete
-/// ones.
+/// File names of table and report for complete and for interrupted analyses. The files of an interrupted analysis do not replace those of a
+/// complete one.
 const NAMES: Names = [["sensitivity.csv", SENSITIVITY], ["sensitivity-partial.csv", PARTIAL_SENSITIVITY]];
 
-/// Returns the names of all files of derivatives except plots.
+/// Returns the names of all files of a sensitivity analysis except plots.
 pub fn all_files() -> impl Iterator<Item = String> {
     NAMES.into_iter().flatten().map(str::to_owned)
 }
@@ -201,15 +201,15 @@ pub fn json(asked: &Sensitivity, taken: &Taken) -> String {
     serde_json::to_string(&report(asked, taken)).unwrap_or_default()
 }
 
-/// Writes the table, `sensitivity.json` and plots into a folder, and deletes the plots named `stale` that are not among
-/// them. Returns the names.
+/// Writes the table, `sensitivity.json` and plots into a folder, and deletes plots named in `stale` that are not written again. Returns the
+/// names of the written files.
 ///
-/// Interrupted results are written to `sensitivity-partial.csv` and `sensitivity-partial.json`; the next complete ones
-/// delete these.
+/// Interrupted results are written to `sensitivity-partial.csv` and `sensitivity-partial.json`; the next complete results delete these
+/// partial files.
 ///
 /// # Errors
-/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
-/// names.
+/// Returns an error of the operating system. Existing files remain unchanged, unless the error occurs while new files are renamed to their
+/// final names.
 pub fn write(
     folder: Folder,
     (asked, taken): (&Sensitivity, &Taken),

@@ -1,7 +1,7 @@
 //! Motion after leaving an unstable periodic orbit.
 //!
-//! All unknowns of the orbit are disturbed slightly and the drive is simulated until its states repeat. The result is another orbit of the
-//! same or a multiple period (period doubling), an oscillation that never repeats, or irregular motion.
+//! All unknowns of the orbit are disturbed slightly and the drive is simulated until its states repeat. The resulting motion is an orbit of
+//! the same or a multiple period (period doubling), an oscillation that never repeats, or irregular motion.
 
 use super::map::Map;
 use super::{Options, Steady, SteadyError};
@@ -12,32 +12,32 @@ use stickslip_drive::{RunError, State};
 use stickslip_measure::{Bounds, Settling};
 use stickslip_run::{Job, Real, quantity};
 
-/// Disturbance of every unknown, in natural scales. The smaller ones are used if a slip memory does not allow the larger ones.
+/// Disturbances of every unknown, in natural scales. Smaller disturbances are used if a slip memory does not allow larger ones.
 const DISTURBED: [f64; 3] = [1e-2, 1e-4, 1e-6];
-/// Distance from the orbit, in disturbances, at which the run has left it.
+/// Distance from the unstable orbit, in units of the disturbance, at which the run counts as having left the orbit.
 const LEFT: f64 = 10.0;
 /// Longest period of a repeating motion, in drive periods.
 const MOST: usize = 64;
-/// Largest difference of repeated states, in natural scales; twice as long patterns may differ little.
+/// Largest difference of states that count as repeated, in natural scales.
 const NEAR: f64 = 1e-7;
-/// Limit of the simulation: time constants of the disturbance, plus a number of periods.
+/// Limit of the simulation: number of time constants of the disturbance, plus a number of periods.
 const FOLDS: f64 = 10.0;
 const THEN: f64 = 1e3;
 /// Largest ratio of successive differences that counts as decay towards a repeating motion.
 const FALLING: f64 = 0.9;
-/// Relative change of the oscillation amplitude over the steps above which the motion is not settled.
+/// Relative change of the oscillation amplitude over the simulated steps above which the motion is not settled.
 const GROWN: f64 = 0.01;
 /// Differences below this value, in natural scales, are rounding errors.
 const ROUNDING: f64 = 1e-9;
-/// Tolerance of the runs, coarser than that of the search.
+/// Tolerance of the runs, coarser than that of the orbit search.
 const TOLERANCE: f64 = 1e-9;
 
 /// Type of motion at the end of the simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
-    /// It repeats itself after this number of periods.
+    /// The motion repeats itself after this number of periods.
     Repeats(usize),
-    /// It oscillates with this period in drive periods, or a fraction of it, and never repeats.
+    /// The motion oscillates with this period in drive periods, or a fraction of this period, and never repeats.
     Beats(f64),
     /// It is irregular.
     Irregular,
@@ -54,7 +54,7 @@ pub struct Aftermath {
     pub ending: Ending,
     /// Number of simulated periods.
     pub periods: usize,
-    /// Step lengths of the repeating pattern, m, or else those of the last half. Empty if no body makes steps.
+    /// Step lengths of the repeating pattern, m, or of the last half of the periods without repetition. Empty if no body makes steps.
     pub steps: Vec<f64>,
 }
 
@@ -122,7 +122,7 @@ impl Steady {
         let all = DVector::from_element(map.unknowns(), 1.0);
         let disturbed = DISTURBED.iter().find_map(|by| Some((map.moved(&self.state, &(&all * *by))?, *by)));
         let Some((state, by)) = disturbed else { return Ok(None) };
-        // Step lengths are those of whole periods, as in a run.
+        // The run continues to the end of a drive period, so that step lengths are those of whole periods.
         let start = self.start(job)?;
         let periods = ((state.time() - start.time()) / self.period).ceil();
         let state = map.lead(state, start.time() + periods * self.period, &mut ())?;
@@ -154,7 +154,7 @@ impl Steady {
 
 /// Periods simulated so far.
 struct Way {
-    /// The last states, each reset to the Poincaré section.
+    /// The last states at period ends, each reset to the Poincaré section.
     states: Vec<State>,
     /// All step lengths, m.
     steps: Vec<f64>,
@@ -175,14 +175,14 @@ impl Way {
 
     /// Returns the number of periods after which the states repeat, away from the orbit that was left.
     ///
-    /// All states of one cycle must agree with those of the cycle before. A decaying oscillation approaches itself only occasionally.
+    /// All states of two successive cycles must agree, because a decaying oscillation repeats single states occasionally.
     fn repeats(&self, map: &Map<'_>, (left, far): (&State, f64)) -> Option<usize> {
         let last = self.states.len() - 1;
         let apart = |k: usize, back: usize| -> Option<f64> {
             Some(map.difference(&self.states[k], &self.states[k.checked_sub(back)?])?.amax())
         };
         let has_left = |k: usize| map.difference(&self.states[k], left).is_none_or(|off| off.amax() > far);
-        // Geometric extrapolation of the remaining difference from the last two.
+        // The remaining difference of states is extrapolated geometrically from the last two differences.
         let to_come = |k: usize, back: usize| -> Option<f64> {
             let [now, before] = [apart(k, back)?, apart(k.checked_sub(back)?, back)?];
             Some(if now <= ROUNDING { 0.0 } else { now / (1.0 - now / before).max(0.0) })
@@ -192,15 +192,15 @@ impl Way {
                 .all(|k| last.checked_sub(k).and_then(|k| to_come(k, back)).is_some_and(|left| left <= NEAR))
         };
         let back = (1..=MOST).find(|back| comes_back(*back))?;
-        // A decaying disturbance that alternates in sign repeats after two periods before it repeats after one. The
-        // same holds for a decaying oscillation and its period.
+        // A decaying disturbance that alternates in sign nearly repeats after two periods before it repeats after one. The same holds for a
+        // decaying oscillation and its period.
         let widest = |before: usize, part: usize| -> Option<f64> {
             let moments = (0..MOST).map(|k| apart(last.checked_sub(before + k)?, part));
             moments.collect::<Option<Vec<_>>>().map(|apart| apart.into_iter().fold(0.0, f64::max))
         };
         let is_falling = |part: usize| match (widest(0, part), widest(MOST, part)) {
             (Some(now), Some(before)) => now > ROUNDING && now < FALLING * before,
-            // Too early to decide.
+            // There are too few periods for a decision.
             _ => true,
         };
         let shorter = (1..back).any(|part| back % part == 0 && is_falling(part));

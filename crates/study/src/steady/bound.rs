@@ -1,13 +1,13 @@
 //! Error of the step length of a fixed point.
 //!
-//! A state with the error e has the defect r = (A - 1) e, so e = -(1 - A)⁻¹ r. The error of the step length is its
-//! gradient times e. Three defects contribute:
+//! A state with the error e has the defect r = (A - 1) e, so e = -(1 - A)⁻¹ r, with the Jacobian A of the Poincaré map. The error of the
+//! step length is the gradient of the step length times e. Three defects contribute:
 //! * the remaining defect of the fixed point;
-//! * the integration error of a period: the larger difference to two runs with finer tolerances, because two runs may
-//!   have the same error;
+//! * the integration error of a period: the larger difference to two runs with finer tolerances, because two runs may accidentally have the
+//!   same error;
 //! * rounding: N ε of each natural scale and of the displacement, for N time steps and events.
 //!
-//! Absolute values are added and doubled.
+//! The absolute values of these contributions are added and doubled.
 
 use super::SteadyError;
 use super::map::{Gradient, Map};
@@ -18,7 +18,7 @@ use stickslip_drive::scene::Axis;
 /// Smallest tolerance of the integrator.
 const TIGHTEST: f64 = 1e-13;
 /// Finer tolerances of the comparison runs, as a fraction of the tolerance.
-// Two are used: with one, a run of an oscillation may have the same nodes and the same error.
+// Two finer tolerances are used, because one run may have the same nodes and the same error as the run of the orbit.
 const FINER: [f64; 2] = [0.1, 1e-3];
 /// Safety factor, because the estimate is of first order.
 const SAFETY: f64 = 2.0;
@@ -30,7 +30,7 @@ pub(super) struct Bound {
     pub(super) gradient: Gradient,
 }
 
-/// Computes the error of a body's step length, with the Jacobian at the fixed point.
+/// Computes the error of a body's step length, and the Jacobian at the fixed point.
 pub(super) fn bound(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Result<Bound, SteadyError> {
     let gradient = map.fine_gradient(&fixed.state, &fixed.image)?;
     let tightest = (TIGHTEST / map.tolerance()).min(1.0);
@@ -49,7 +49,7 @@ pub(super) fn bound(map: &mut Map<'_>, fixed: &Fixed, body: Option<usize>) -> Re
         let off = solve(left.clone(), defect).unwrap_or_else(|| DVector::zeros(count));
         along.iter().zip(off.iter()).map(|(a, off)| (a * off).abs()).sum::<f64>()
     };
-    // Rounding errors of each unknown may have any sign.
+    // The rounding errors of the unknowns may have any sign, so their contributions are added in absolute value.
     let anything: f64 =
         (0..count).map(|j| missed(&DVector::from_fn(count, |i, _| if i == j { 1.0 } else { 0.0 }))).sum();
     let rounded = map.steps() as f64 * f64::EPSILON;

@@ -1,18 +1,14 @@
 //! Continuation of periodic orbits over a parameter of the scenario.
 //!
-//! Periodic orbits solve P(s, q) - s = 0. With the parameter q, the solutions form a branch. The branch is followed
-//! from the orbit of the scenario to both ends of a range of q, also around
-//! folds and along unstable orbits. The method is pseudo-arclength continuation (Keller 1977): a step along the
-//! tangent, then Newton's method for s and q together. Folds, period doublings,
-//! Neimark–Sacker bifurcations and events that appear or vanish (corners of P) are located.
+//! Periodic orbits solve P(s, q) - s = 0. With the parameter q, the solutions form a branch. The branch is followed from the orbit of the
+//! scenario to both ends of a range of q, also around folds and along unstable orbits. The method is pseudo-arclength continuation (Keller
+//! 1977): a step along the tangent, then Newton's method for s and q together. Folds, period doublings, Neimark–Sacker bifurcations and
+//! events that appear or vanish (corners of P) are located.
 //!
 //! Modules in reading order:
-//! * `place`: a state at a parameter value with its image; `corrector`: Newton's method; `happened`: events of a
-//!   period.
-//! * `standing`: an orbit of the branch with its tangent; `written`: its form in the journal; `bifurcation`: special
-//!   points.
-//! * `arm`: the branch in one direction; `passage`: special points between two orbits; `beyond`: continuation after a
-//!   failed step.
+//! * `place`: a state and its image at a parameter value; `corrector`: Newton's method; `happened`: events of a period.
+//! * `standing`: an orbit of the branch with its tangent; `written`: storage of an orbit in the journal; `bifurcation`: special points.
+//! * `arm`: the branch in one direction; `passage`: special points between two orbits; `beyond`: continuation after a failed step.
 //! * `table`: output.
 
 mod arm;
@@ -47,13 +43,13 @@ use stickslip_run::Job;
 /// Options of a continuation.
 #[derive(Clone, Copy)]
 pub struct Course<'a> {
-    /// Options of the search for each orbit; `periods` applies to the first one.
+    /// Options of the search for each orbit; `periods` applies only to the search for the first orbit.
     pub steady: Options<'a>,
     /// Maximum number of points on each side of the start; default 1000.
     pub points: usize,
-    /// Accuracy of special points, relative to the range: 1e-12 to 1e-3; default 1e-9.
+    /// Accuracy of special points, as a fraction of the parameter range: 1e-12 to 1e-3; default 1e-9.
     pub accuracy: f64,
-    /// Receives the number of orbits on a side.
+    /// Receives the number of orbits in one direction of the branch.
     pub told: &'a dyn Fn(usize),
 }
 
@@ -71,9 +67,9 @@ pub struct Continuation {
     pub path: String,
     /// SI unit of the parameter; empty for a plain number.
     pub unit: &'static str,
-    /// Value at the start of the branch, SI.
+    /// Value of the parameter at the start of the branch, SI.
     pub present: f64,
-    /// Ends of the range, SI.
+    /// Ends of the parameter range, SI.
     pub range: [f64; 2],
     /// Journal with the steps along the branch.
     pub journal: Journal,
@@ -84,11 +80,11 @@ pub struct Continuation {
 pub struct Branch {
     /// Points in order along the branch, starting at the end in the direction of decreasing values.
     pub points: Vec<Point>,
-    /// Special points between them, in the same order.
+    /// Special points between the points of the branch, in the same order.
     pub marks: Vec<Mark>,
     /// Index of the start among the points.
     pub start: usize,
-    /// Reasons for the ends at the first and last point.
+    /// Reasons why the branch ends at its first and at its last point.
     pub ends: [End; 2],
 }
 
@@ -114,8 +110,7 @@ impl Continuation {
     /// Follows the branch to both ends of the range.
     ///
     /// # Errors
-    /// Fails if there is no periodic orbit at the start, or a family of them, or the search is interrupted before the
-    /// first orbit.
+    /// Fails if the start has no periodic orbit or a family of orbits, or if the search for the first orbit is interrupted.
     pub fn follow(&self, course: &Course<'_>) -> Result<Branch, ContinuationError> {
         let options = Options { periods: u32::MAX, told: &|_| (), ..course.steady };
         let bench = Bench::new((&self.job, &self.path), self.span(), options);
@@ -168,13 +163,13 @@ impl Continuation {
         let row = by_value(place.fixed.defect.len(), 1.0);
         let start = Standing::of(bench, place, period, (None, &row));
         let mut start = start.map_err(|trouble| match trouble {
-            // There is a common period at the start, but not for other values.
+            // The waveforms have a common period at the start value, but not at other parameter values.
             Trouble::Steady(SteadyError::Incommensurate { first, second, .. }) => {
                 ContinuationError::Apart { path: path.clone(), first, second }
             }
             other => none(other),
         })?;
-        // The tangent (dx/dq, 1) has been normalised and gives only the direction.
+        // The tangent (dx/dq, 1) has been normalised with another metric, so only its direction is used.
         let measure = Measure::of(&start.tangent);
         start.tangent /= measure.length(&start.tangent);
         Ok((start, measure))
@@ -188,7 +183,7 @@ impl Point {
         self.step.map(|step| step / self.period)
     }
 
-    /// Returns the largest modulus of a multiplier; 0 without multipliers.
+    /// Returns the largest modulus of a Floquet multiplier; 0 without multipliers.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.multipliers.first().map_or(0.0, super::Multiplier::modulus)
@@ -209,9 +204,9 @@ impl Branch {
     }
 }
 
-/// Joins the two directions at the start.
+/// Joins the parts of the branch in both directions at the start.
 fn joined(start: Point, [mut back, mut ahead]: [Arm; 2]) -> Branch {
-    // Pieces are numbered along the branch.
+    // The smooth pieces of the branch are numbered along the whole branch.
     let last = back.points.last().map_or(0, |point| point.piece);
     back.points.iter_mut().for_each(|point| point.piece = last - point.piece);
     ahead.points.iter_mut().for_each(|point| point.piece += last);

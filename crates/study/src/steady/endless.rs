@@ -1,4 +1,4 @@
-//! Drive with endless waveforms, and its common period.
+//! Drive whose waveforms continue without end, and the common period of the waveforms.
 
 use super::SteadyError;
 use serde_json::Value;
@@ -8,9 +8,9 @@ use stickslip_drive::{Model, Timing, Waveform};
 use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 
-/// Longest common period, as a multiple of the longest period.
+/// Longest common period, as a multiple of the longest waveform period.
 const MOST: u32 = 64;
-/// Relative tolerance for an integer ratio of periods, against rounding of the input.
+/// Relative tolerance for an integer ratio of periods, which allows for rounding of the input.
 const WHOLE: f64 = 1e-12;
 
 /// Drive with endless waveforms.
@@ -18,14 +18,14 @@ pub(super) struct Endless {
     pub(super) model: Model,
     /// Initial state at t = 0.
     pub(super) start: stickslip_drive::State,
-    /// Period, s.
+    /// Common period of all waveforms, s.
     pub(super) period: f64,
-    /// Time after which everything is periodic, s.
+    /// Time after which all waveforms are periodic, s.
     pub(super) begins: f64,
 }
 
 impl Endless {
-    /// Creates it from a job.
+    /// Creates the drive with endless waveforms from a scenario.
     ///
     /// # Errors
     /// Fails if a calling program commands a waveform, a waveform has neither period nor end, there is no common
@@ -66,7 +66,7 @@ impl Endless {
     }
 }
 
-/// Returns whether the waveform with index `w` is periodic. A waveform of one cycle counts as finished, unless it is named in `figures`.
+/// Returns whether waveform `w` is periodic. A waveform of one cycle counts as finished, unless it is the waveform named in `figures`.
 fn repeats(job: &Job, w: usize) -> bool {
     let Some(Named { part, .. }) = job.scenario.scene.waveforms.get(w) else { return false };
     let once =
@@ -74,10 +74,10 @@ fn repeats(job: &Job, w: usize) -> bool {
     part.period().is_some() && !once
 }
 
-/// Returns a job of the same drive whose scenario has endless waveforms. If its run would end by the time `start`, s,
-/// the run is extended by its duration.
+/// Returns a runnable scenario of the same drive with endless waveforms. If the run would end before the time `start`, s, it is extended by
+/// its duration.
 pub(super) fn job(job: &Job, start: f64, folder: PathBuf) -> Result<Job, SteadyError> {
-    // The resolved scenario can be read again.
+    // The resolved scenario can be read again without other files.
     let mut form: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
     for (w, Named { name, .. }) in job.scenario.scene.waveforms.iter().enumerate() {
         let Some(Value::Object(shapes)) = form.pointer_mut("/waveforms").and_then(|all| all.get_mut(name))

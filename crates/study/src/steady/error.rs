@@ -34,7 +34,7 @@ pub enum SteadyError {
         /// Longest common period, as a multiple of the longer period.
         most: u32,
     },
-    /// The orbit has no step, but a step is required.
+    /// The orbit has no step, although a step is required.
     #[error(
         "there is no step{}\n   help: name results of a run, without --steady and results that begin with \"steady.\"",
         if *.least > 0.0 { format!(": it is below its error of {:.3e} m", .least) } else { String::new() }

@@ -1,4 +1,4 @@
-//! Poincaré map of a period. Its Jacobian: [`gradient`].
+//! Poincaré map of a period. The Jacobian of the map is in [`gradient`].
 //!
 //! Unknowns are measured in natural scales: the gross slip displacement u_c of a coordinate's contacts, and u_c ω for its velocity.
 
@@ -15,7 +15,7 @@ use stickslip_drive::section::{Section, Unknown};
 use stickslip_drive::{Limits, Model, Plan, Record, Run, RunError, State, Stepper};
 use stickslip_run::Job;
 
-/// Tolerance for whole numbers of periods, against rounding.
+/// Tolerance for whole numbers of periods, which allows for rounding errors.
 const WHOLE: f64 = 1e-6;
 
 /// Poincaré map of a period.
@@ -28,9 +28,9 @@ pub(super) struct Map<'m> {
     options: &'m Options<'m>,
     /// Number of simulated periods.
     work: f64,
-    /// Time steps and events of the last period.
+    /// Number of time steps and events in the last period.
     steps: u64,
-    /// Remaining number of time steps.
+    /// Number of time steps that the search may still take.
     left: u64,
 }
 
@@ -51,9 +51,9 @@ fn tried(state: &State) -> u64 {
 }
 
 impl Image {
-    /// Returns which of two disturbed images are used for finite differences, ahead and behind of this one.
+    /// Returns which of two disturbed images, ahead of and behind this image, are used for finite differences.
     ///
-    /// Images with the same event counts as this one are preferred. If neither has them, all available images are used.
+    /// Images with the event counts of the undisturbed image are preferred. If no image has these counts, all images are used.
     pub(super) fn sides(&self, beside: [Option<&Self>; 2]) -> [bool; 2] {
         let is_like = |other: &Self| {
             let both = self.happened.as_ref().zip(other.happened.as_ref());
@@ -103,23 +103,23 @@ impl<'m> Map<'m> {
         self.period
     }
 
-    /// Returns the number of periods computed or started.
+    /// Returns the number of periods that were simulated or started.
     pub(super) fn work(&self) -> u32 {
         // Sums of fractions of a period have rounding errors.
         (self.work - WHOLE).ceil() as u32
     }
 
-    /// Returns whether more periods are allowed.
+    /// Returns whether the search may simulate more periods.
     pub(super) fn may_go_on(&self) -> bool {
         self.work() < self.options.periods
     }
 
-    /// Returns the number of unknowns.
+    /// Returns the number of unknowns of the Poincaré map.
     pub(super) fn unknowns(&self) -> usize {
         self.scales.len()
     }
 
-    /// Returns the number of simulated periods before Newton's method.
+    /// Returns the number of periods that are simulated before Newton's method starts.
     pub(super) fn settling(&self) -> u32 {
         self.options.settling
     }
@@ -142,13 +142,13 @@ impl<'m> Map<'m> {
         of_places.map(|(_, scale)| way / scale).fold(0.0, f64::max)
     }
 
-    /// Returns the largest displacement in a period, in natural scales.
+    /// Returns the largest displacement of a coordinate in a period, in natural scales.
     pub(super) fn reach(&self, image: &Image) -> f64 {
         let lengths = self.section.as_ref().map(Section::lengths).unwrap_or_default();
         image.way.iter().zip(lengths).map(|(way, length)| (way / length).abs()).fold(0.0, f64::max)
     }
 
-    /// Simulates a state until a time, s. Commits the slip memories at the end.
+    /// Simulates a state until a time, s, and then commits the slip memories.
     ///
     /// # Errors
     /// Fails if the run fails or is interrupted.
@@ -162,7 +162,7 @@ impl<'m> Map<'m> {
         self.run(state, until, self.plan, record)
     }
 
-    /// Returns a run at a state.
+    /// Returns a run that starts at a state.
     pub(super) fn held(&self, state: State) -> Result<Run<'m>, SteadyError> {
         Ok(Run::new(self.model, &self.plan, state)?)
     }
@@ -202,7 +202,7 @@ impl<'m> Map<'m> {
         Ok(state)
     }
 
-    /// Returns the image of a state after a period, with the tolerance multiplied by `finer`.
+    /// Returns the image of a state after a period, with the tolerance of the runs multiplied by `finer`.
     pub(super) fn image(&mut self, state: &State, finer: f64) -> Result<Image, SteadyError> {
         let mut happened = Tally::default();
         let end = self.a_period_on(state, finer, &mut happened)?;
@@ -234,9 +234,9 @@ impl<'m> Map<'m> {
         Image { state, way, happened: None }
     }
 
-    /// Returns the deviation of a state some periods after a fixed point, in natural scales: of unknowns and displacements.
+    /// Returns the deviation of unknowns and displacements from the fixed point after some periods, in natural scales.
     ///
-    /// If a memory has another number of corners, only displacements are compared, because an additional corner may be due to rounding.
+    /// If a slip memory has another number of breakpoints, only displacements are compared, because a breakpoint may be due to rounding.
     pub(super) fn missed_after(&self, state: State, (fixed, periods): (&Fixed, f64)) -> f64 {
         let Some(section) = &self.section else { return 0.0 };
         let (state, way) = section.back(state);
@@ -246,8 +246,8 @@ impl<'m> Map<'m> {
         ways.map(|((way, one), scale)| (way - periods * one).abs() / scale).fold(numbers, f64::max)
     }
 
-    /// Returns the difference of the unknowns of two states, in natural scales. Returns `None` if their memories have
-    /// different numbers of corners.
+    /// Returns the difference of the unknowns of two states, in natural scales. Returns `None` if the slip memories of the states have
+    /// different numbers of breakpoints.
     pub(super) fn difference(&self, of: &State, less: &State) -> Option<DVector<f64>> {
         let numbers = DVector::from_vec(self.section.as_ref()?.difference(of, less)?);
         Some(numbers.component_div(&self.scales))

@@ -1,7 +1,7 @@
 //! Choice of the instant of the Poincaré section.
 //!
-//! Gross slip and lift-off erase the memory of a contact. If all contacts have done so, the state consists of positions and velocities
-//! only. Two simulated periods determine the best instant: the first records events, the second compares the midpoints between events.
+//! Gross slip and lift-off erase the slip memory of a contact. After gross slip of all contacts, the state has positions and velocities
+//! only. Two simulated periods determine the best instant: the first records events, the second compares midpoints between events.
 
 use super::SteadyError;
 use super::map::{Image, Map};
@@ -10,33 +10,33 @@ use crate::grip::{Grip, Loose};
 use stickslip_drive::scene::Axis;
 use stickslip_drive::{Event, EventKind, Model, Record, Source, State};
 
-/// Maximum number of midpoints, those of the longest intervals.
+/// Maximum number of compared midpoints. The longest intervals between events are preferred.
 const MOST: usize = 256;
-/// Largest deviation in the second of two periods, relative to the defect of the first, because disturbances may grow.
+/// Largest deviation after two periods, relative to the defect of the fixed point; disturbances may grow in this time.
 const AGAIN: f64 = 1e6;
-/// Upper limit of this deviation, in natural scales.
+/// Upper limit of the deviation after two periods, in natural scales.
 const OFF: f64 = 1e-3;
-/// Number of simulated periods for the check that the step length remains constant, and its largest relative change.
+/// Number of simulated periods for the check that the step length remains constant, and largest relative change of the step length.
 const LASTING: u32 = 16;
 const LASTS: f64 = 1e-3;
-/// Upper limit of the remaining change of the step length, as a multiple of its last change.
+/// Upper limit of the extrapolated change of the step length, as a multiple of the last change.
 const LEFT: f64 = 30.0;
-/// Shortest interval between events that is considered, as a fraction of the period.
+/// Shortest interval between events whose midpoint is considered, as a fraction of the period.
 const SHORTEST: f64 = 1e-4;
 
-/// Result of the first simulated periods.
+/// State after the first simulated periods, with its contacts.
 pub(super) struct Settled {
     /// State at the chosen instant.
     pub(super) state: State,
-    /// Contacts without gross slip and lift-off in the last period.
+    /// Contacts without gross slip and without lift-off in the last period.
     pub(super) never_gave_way: Vec<usize>,
 }
 
-/// Recorder of event times, s, of contacts that slip grossly or lift off, and of the hold of the body named in `figures`.
+/// Recorder of event times, s, of contacts that slip grossly or lift off, and of whether contacts hold the body named in `figures`.
 struct Moments {
     times: Vec<f64>,
     gave_way: Vec<bool>,
-    /// Channel indices of the stick radii. They are only used for models with jumps.
+    /// Channel indices of the stick radii, used only for models with jumps of the velocity.
     stick: Vec<Option<usize>>,
     jumps: bool,
     grip: Option<Grip>,
@@ -66,7 +66,7 @@ impl Record for Moments {
         self.grip.iter_mut().for_each(|grip| grip.event(event));
         match (event.source, event.kind) {
             (Source::Contact(c), EventKind::GrossSlip | EventKind::LiftOff) => self.gave_way[c] = true,
-            // During a jump of the velocity, a contact may slip grossly without an event. Its stick radius is then 0.
+            // During a jump of the velocity, a contact may slip grossly without an event; its stick radius then becomes 0.
             (_, EventKind::Jump) => {
                 let sticks = |place: usize| row.get(place).is_none_or(|radius| *radius > 0.0);
                 for (gave_way, place) in self.gave_way.iter_mut().zip(&self.stick) {
@@ -81,8 +81,8 @@ impl Record for Moments {
     }
 }
 
-/// Simulates at least two periods after the motion has become periodic. Returns the state at the instant of a period
-/// with the smallest slip memory.
+/// Simulates at least two periods after all waveforms have become periodic. Returns the state at the instant of a period with the smallest
+/// slip memory.
 pub(super) fn settle(
     map: &mut Map<'_>,
     begins: f64,
@@ -96,7 +96,7 @@ pub(super) fn settle(
     again(map, state)
 }
 
-/// Simulates two more periods from a state. Returns the state at the instant of the second period with the smallest slip memory.
+/// Simulates two more periods. Returns the state at the instant of the second period with the smallest slip memory.
 pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyError> {
     let (model, period, from) = (map.model(), map.period(), state.time());
     let contacts = model.contacts().count();
@@ -110,10 +110,10 @@ pub(super) fn again(map: &mut Map<'_>, state: State) -> Result<Settled, SteadyEr
 
 /// Simulates two periods from a fixed point to verify that the motion is periodic.
 ///
-/// Returns the contacts without gross slip, and the state of the observed body in the second period if no contact held it.
+/// Returns the contacts without gross slip. Also returns the state of the observed body if no contact held it in the second period.
 ///
 /// # Errors
-/// Returns [`SteadyError::NoConvergence`] if the state after two periods deviates too much.
+/// Returns [`SteadyError::NoConvergence`] if the state after two periods deviates too much from the fixed point.
 pub(super) fn twice(
     map: &mut Map<'_>,
     fixed: &Fixed,
@@ -139,8 +139,8 @@ pub(super) fn twice(
 
 /// Returns the remaining change of the step length, m, due to slip memories that are not unknowns of the map.
 ///
-/// The change is measured in further simulated periods and extrapolated geometrically. If such a contact never slips grossly (`holds`),
-/// any significant change makes the whole step length uncertain.
+/// The change is measured in further simulated periods and extrapolated geometrically. If a contact with such a memory never slips grossly
+/// (`holds`), any significant change makes the whole step length uncertain.
 pub(super) fn creep(
     map: &mut Map<'_>,
     (fixed, holds): (&Fixed, bool),
@@ -166,7 +166,7 @@ pub(super) fn creep(
     Ok(if after == 0.0 { before } else { before + after * (1.0 + left.min(LEFT)) })
 }
 
-/// Returns the intervals between events as (midpoint, length), s, ordered by midpoint. Short intervals are omitted.
+/// Returns the intervals between events as (midpoint, length), s, in the order of midpoints. Short intervals are omitted.
 fn stretches(times: &[f64], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
     let mut times: Vec<f64> = times.iter().copied().filter(|t| (from..to).contains(t)).collect();
     times.insert(0, from);
@@ -180,8 +180,8 @@ fn stretches(times: &[f64], (from, to): (f64, f64)) -> Vec<(f64, f64)> {
     stretches
 }
 
-/// Returns the state at the midpoint with the smallest slip memory, one period later. Among equal midpoints, the one
-/// with the longest interval is chosen.
+/// Returns the state at the midpoint with the smallest slip memory, one period later. If several midpoints have the smallest slip memory,
+/// the midpoint of the longest interval is chosen.
 fn choose(map: &mut Map<'_>, state: &State, stretches: &[(f64, f64)]) -> Result<State, SteadyError> {
     let period = map.period();
     let mut best: Option<((usize, f64), State)> = None;
@@ -199,8 +199,8 @@ fn choose(map: &mut Map<'_>, state: &State, stretches: &[(f64, f64)]) -> Result<
     Ok(best.map_or(state, |(_, state)| state))
 }
 
-/// Returns the size of the slip memories: the number of corners in contacts without gross slip. A row of springs counts
-/// more than any memory curve.
+/// Returns the size of the slip memories: the number of breakpoints in contacts without gross slip. A contact with discrete springs counts
+/// more than any piecewise linear memory.
 fn remembered(model: &Model, state: &State) -> usize {
     let of = |(c, memory): (usize, &stickslip_contact::Memory)| match memory.knot_count() {
         _ if state.has_given_way(model, c) => 0,

@@ -1,30 +1,29 @@
 //! Floquet multipliers of a periodic orbit.
 //!
-//! A disturbance along an eigenvector of the Jacobian of the Poincaré map is multiplied by λ per period. It decays if
-//! |λ| < 1 and grows if |λ| > 1. It oscillates with a period of
-//! 2π/|arg λ| drive periods, or alternates in sign if λ < 0.
+//! A disturbance along an eigenvector of the Jacobian of the Poincaré map is multiplied by λ per period. The disturbance decays if |λ| < 1
+//! and grows if |λ| > 1. The disturbance oscillates with a period of 2π/|arg λ| drive periods, or alternates in sign if λ < 0.
 //!
-//! An error δA of the Jacobian changes an eigenvalue by κ δA, where 1/κ = |y* x| for its left and right unit eigenvectors (G. W. Stewart
-//! and J. Sun, Matrix Perturbation Theory, 1990, sec. IV.2.2). A double eigenvalue with one eigenvector, as of an undamped bouncing body,
-//! changes by √δA, and κ is about 1/√δA.
+//! An error δA of the Jacobian changes an eigenvalue by κ δA, where 1/κ = |y* x| for its left and right unit eigenvectors (Stewart and Sun,
+//! *Matrix Perturbation Theory*, 1990, section IV.2.2). A double eigenvalue with one eigenvector, as of an undamped bouncing body, changes
+//! by √δA, and κ is about 1/√δA.
 
 use super::map::Gradient;
 use nalgebra::{Complex, ComplexField, DMatrix, SVD, Schur};
 use std::f64::consts::TAU;
 
-/// Relative tolerances of the Schur decomposition, tried one after another.
+/// Relative tolerances of the Schur decomposition, tried in this order.
 const WITHIN: [f64; 3] = [f64::EPSILON, 1e-14, 1e-12];
 /// Iterations of the Schur decomposition per row.
 const SWEEPS: usize = 100;
-/// Smallest error of a multiplier. A modulus this close to 1 is neutral.
+/// Smallest error of a multiplier. A multiplier whose modulus differs from 1 by less than this error is neutral.
 const NEUTRAL: f64 = 1e-6;
 /// Error of the entries of the Jacobian relative to its norm, as a multiple of the tolerance or of the remaining defect.
 const ENTRIES: f64 = 20.0;
 /// Error of |λ| above which a neutral multiplier is described as uncertain.
 const KNOWN: f64 = 1e-4;
-/// Modulus below which a disturbance vanishes within a period.
+/// Modulus below which a disturbance counts as vanishing within a period.
 const FORGOTTEN: f64 = 1e-3;
-/// Angles this close to 0 or π are rounding errors.
+/// Arguments of a multiplier that differ from 0 or π by less than this angle are due to rounding errors.
 const ANGLE: f64 = 1e-6;
 
 /// Floquet multiplier: an eigenvalue of the Jacobian of the Poincaré map.
@@ -32,22 +31,22 @@ const ANGLE: f64 = 1e-6;
 pub struct Multiplier {
     /// Real part.
     pub re: f64,
-    /// Imaginary part, not negative; one entry stands for both of a complex pair.
+    /// Imaginary part, not negative; one entry represents both multipliers of a complex pair.
     pub im: f64,
-    /// Error. A modulus this close to 1 is neutral.
+    /// Error of the multiplier. A multiplier whose modulus differs from 1 by less than this error is neutral.
     pub error: f64,
 }
 
-/// Fate of a disturbance.
+/// Behaviour of a disturbance along the eigenvector.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// It vanishes within a period.
+    /// The disturbance vanishes within a period.
     Forgotten,
     /// It decays.
     Fades,
-    /// It is neutral.
+    /// The disturbance is neutral: it neither decays nor grows.
     Stays,
-    /// It grows: a run leaves this orbit.
+    /// The disturbance grows: a run leaves this orbit.
     Grows,
 }
 
@@ -58,7 +57,7 @@ impl Multiplier {
         math::hypot(self.re, self.im)
     }
 
-    /// Returns the error if it is larger than the six digits of the output.
+    /// Returns the error if it is visible in the six digits of the output.
     #[must_use]
     pub fn doubt(&self) -> Option<f64> {
         (self.error > NEUTRAL).then_some(self.error)
@@ -75,8 +74,8 @@ impl Multiplier {
         }
     }
 
-    /// Returns the period of oscillation in drive periods, more than 2. Returns `None` if the disturbance does not
-    /// oscillate or alternates in sign.
+    /// Returns the period of the oscillation in drive periods, more than 2. Returns `None` if the disturbance does not oscillate or
+    /// alternates in sign.
     #[must_use]
     pub fn beat(&self) -> Option<f64> {
         let angle = math::atan2(self.im, self.re).abs();
@@ -90,7 +89,7 @@ impl Multiplier {
         self.beat().is_none() && self.re < 0.0
     }
 
-    /// Returns the time constant in drive periods: a disturbance changes by a factor of e. Returns `None` if it is
+    /// Returns the time constant in drive periods, in which a disturbance changes by a factor of e. Returns `None` if the disturbance is
     /// neutral or vanishes within a period.
     #[must_use]
     pub fn periods(&self) -> Option<f64> {
@@ -131,7 +130,7 @@ fn digits(x: f64) -> String {
     if !x.is_finite() || x == 0.0 {
         return x.to_string();
     }
-    // Rounded first, because 0.09996 has the decimal places of 0.1.
+    // The number is rounded first, because 0.09996 has as many decimal places as 0.1.
     let x: f64 = format!("{x:.2e}").parse().unwrap_or(x);
     let places = (2 - math::log10(x.abs()).floor() as i32).clamp(0, 12);
     format!("{x:.*}", usize::try_from(places).unwrap_or(0))
@@ -139,9 +138,9 @@ fn digits(x: f64) -> String {
 
 /// Returns the multipliers of a Jacobian in descending order of modulus, one for each complex pair.
 ///
-/// `tolerance` is that of the runs, `defect` the remaining defect of the fixed point. Columns of unknown effect are
-/// excluded if the other unknowns do not influence them, because the Jacobian
-/// is then block triangular. Returns no multipliers otherwise, or if entries are not finite.
+/// `tolerance` is the tolerance of the runs, `defect` the remaining defect of the fixed point. Columns of unknown effect are excluded if
+/// the other unknowns do not influence them, because the Jacobian is then block triangular. Otherwise, or if entries are not finite, no
+/// multipliers are returned.
 pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Multiplier> {
     let size = gradient.numbers.norm();
     let entries = ENTRIES * tolerance.max(defect) * size + gradient.missed + Gradient::noise(tolerance);
@@ -161,7 +160,7 @@ pub(super) fn of(gradient: &Gradient, (tolerance, defect): (f64, f64)) -> Vec<Mu
     all
 }
 
-/// Returns the error of an eigenvalue for a given error of the entries: κ times the error, at most that of a double eigenvalue.
+/// Returns the error of an eigenvalue for a given error of the entries: κ times this error, at most the error of a double eigenvalue.
 fn moved(matrix: &DMatrix<f64>, value: Complex<f64>, entries: f64) -> f64 {
     let count = matrix.nrows();
     let shifted =
@@ -169,7 +168,7 @@ fn moved(matrix: &DMatrix<f64>, value: Complex<f64>, entries: f64) -> f64 {
     let svd = SVD::try_new(shifted, true, true, f64::EPSILON, count * SWEEPS);
     let double = (entries * matrix.norm()).sqrt();
     svd.and_then(|svd| svd.u.zip(svd.v_t)).map_or(double, |(left, right)| {
-        // Singular vectors of the smallest singular value, which is 0 except for rounding.
+        // The singular vectors belong to the smallest singular value, which is 0 except for rounding.
         let (y, x) = (left.column(count - 1), right.row(count - 1));
         let product: Complex<f64> = y.iter().zip(x.iter()).map(|(y, x)| y * x).sum();
         (entries / product.modulus()).min(double)

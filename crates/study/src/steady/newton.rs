@@ -1,8 +1,8 @@
 //! Fixed point of the Poincaré map by Newton's method.
 //!
 //! Periods are simulated as long as they reduce the defect quickly. Otherwise Newton's method follows, with a Jacobian by finite
-//! differences. Broyden's update corrects the Jacobian after each step, and a new one is computed if the convergence is slow. Steps that
-//! do not reduce the defect are halved. Singular directions, as in a shakedown, are excluded, so the nearest fixed point is found.
+//! differences. Broyden's update corrects the Jacobian after each step; a new Jacobian is computed if the convergence is slow. Newton steps
+//! that do not reduce the defect are halved. Singular directions, as in a shakedown, are excluded, so the nearest fixed point is found.
 
 use super::SteadyError;
 use super::map::{Gradient, Map, near};
@@ -14,17 +14,17 @@ use stickslip_drive::section::Section;
 const GOAL: f64 = 10.0;
 /// Defect in natural scales that is accepted as rounding error if it does not decrease further.
 const ROUNDING: f64 = 1e-8;
-/// Largest ratio of successive defects at which simulated periods continue.
+/// Largest ratio of successive defects at which periods are simulated instead of using Newton's method.
 const BY_ITSELF: f64 = 0.05;
-/// Largest ratio of defects for which a Broyden-updated Jacobian is kept. It is also kept if it needs fewer periods than a new Jacobian.
+/// Largest ratio of defects for which an updated Jacobian is kept. An updated Jacobian is also kept if a new one needs more periods.
 const WORN: f64 = 0.1;
-/// Number of step sizes tried, each half of the one before.
+/// Number of fractions of a Newton step that are tried; each fraction is half of the previous one.
 const HALVINGS: u32 = 4;
 /// Enlargement of finite differences, if a step with a new Jacobian does not reduce the defect.
 ///
-/// Differences are multiplied by `WIDER` up to `WIDEST` natural scales; at most `IN_VAIN` times without success. If a
-/// simulated period changes the defect by less than the fraction `SLOW`, differences start at `WIDEST`. An example is a
-/// heavy slider: rounding errors would dominate smaller differences.
+/// The distance of finite differences is multiplied by `WIDER` up to `WIDEST` natural scales; at most `IN_VAIN` times without success. If a
+/// simulated period changes the defect by less than the fraction `SLOW`, the distance is `WIDEST` from the start. An example is a heavy
+/// slider, for which rounding errors would dominate smaller differences.
 const WIDER: f64 = 100.0;
 const WIDEST: f64 = 1e-2;
 const IN_VAIN: u32 = 4;
@@ -33,27 +33,27 @@ const SLOW: f64 = 1e-3;
 const PLAIN: u32 = 8;
 /// Number of consecutive periods with the same increase of the state after which the search ends.
 const SAME: u32 = 32;
-/// Relative tolerance for equal increases, and their minimum size in tolerances.
+/// Relative tolerance for equal increases, and their minimum size as a multiple of the tolerance.
 const ALIKE: f64 = 1e-6;
 const LARGE: f64 = 1e4;
-/// Singular values below this fraction of the largest are treated as zero.
+/// Singular values below this fraction of the largest singular value are treated as zero.
 const FLAT: f64 = 1e-7;
 
-/// Method that gave the state at the start of a period.
+/// Method that computed the state at the start of a period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// Simulation: the end state of the period before.
+    /// Simulation: the state is the end state of the previous period.
     Plain,
     /// Newton's method.
     Newton,
 }
 
-/// Defect of a period.
+/// Defect of one period of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Defect {
     /// Largest change of an unknown in the period, in natural scales.
     pub size: f64,
-    /// Method that gave the state.
+    /// Method that computed the state at the start of the period.
     pub way: Way,
 }
 
@@ -68,7 +68,7 @@ pub(super) struct Fixed {
     pub(super) defects: Vec<Defect>,
 }
 
-/// Finds a fixed point of a map, starting from the state of its section.
+/// Finds a fixed point of a Poincaré map, starting from the state of its section.
 ///
 /// # Errors
 /// Fails if the iteration does not converge within the allowed periods, every period adds the same amount to the state,
@@ -101,21 +101,21 @@ pub(super) fn fixed_point(map: &mut Map<'_>, from: &State) -> Result<Fixed, Stea
 struct Search {
     state: State,
     image: super::map::Image,
-    /// `None` if the image has another number of memory corners.
+    /// Defect P(s) - s. `None` if the image has another number of breakpoints of the slip memory.
     defect: Option<DVector<f64>>,
-    /// Size of the previous defect.
+    /// Size of the defect in the previous period.
     before: Option<f64>,
     gradient: Option<Gradient>,
     goal: f64,
     defects: Vec<Defect>,
-    /// Increase that simulated periods have repeated, and their number.
+    /// Increase of the state that is the same in successive simulated periods, and number of these periods.
     same: Option<(DVector<f64>, u32)>,
     /// True if the last Newton step did not reduce the defect.
     stalled: bool,
     /// Distance of finite differences in natural scales, and number of unsuccessful enlargements.
     apart: f64,
     in_vain: u32,
-    /// Integration error after a period, in natural scales: the defect cannot be reliably reduced below it.
+    /// Integration error after a period, in natural scales. The defect cannot be reliably reduced below this error.
     magnified: f64,
 }
 
@@ -163,7 +163,7 @@ impl Search {
         size <= self.goal || self.stalled && size <= self.least_sure()
     }
 
-    /// Returns the defect below which it is accepted if it does not decrease further: rounding or integration error.
+    /// Returns the defect that is accepted if it does not decrease further: the larger of rounding and integration error.
     fn least_sure(&self) -> f64 {
         ROUNDING.max(self.magnified)
     }
@@ -174,7 +174,7 @@ impl Search {
         Fixed { state, image, defect, defects }
     }
 
-    /// Simulates a period from the image. If the image has another number of memory corners, the map gets a new section
+    /// Simulates a period from the image. If the image has another number of breakpoints of the slip memory, the map gets a new section
     /// with other unknowns.
     fn plain(&mut self, map: &mut Map<'_>) -> Result<(), SteadyError> {
         self.before = Some(self.size());
@@ -196,8 +196,8 @@ impl Search {
         Ok(())
     }
 
-    /// Fails if every period adds the same amount to the state: a load exceeds friction, or an undamped vibration is in resonance.
-    /// Newton's method cannot converge then, because A r = r.
+    /// Fails if every period adds the same amount to the state: a load exceeds friction, or an undamped vibration is in resonance. In these
+    /// cases Newton's method cannot converge, because A r = r.
     fn check_gains(&self, map: &Map<'_>) -> Result<(), SteadyError> {
         match (&self.same, map.section()) {
             (Some((defect, periods)), Some(section)) if *periods >= SAME => {
@@ -208,7 +208,7 @@ impl Search {
         }
     }
 
-    /// Takes a Newton step, halved until it reduces the defect. Returns `false` if no step does.
+    /// Takes a Newton step, halved until it reduces the defect. Returns `false` if no fraction of the step reduces the defect.
     fn newton(&mut self, map: &mut Map<'_>) -> Result<bool, SteadyError> {
         let Some(defect) = self.defect.clone() else { return Ok(false) };
         let fresh = self.gradient.is_none();
@@ -222,7 +222,7 @@ impl Search {
             if self.try_step(map, (&gradient, &step), (&defect, share))? {
                 return Ok(true);
             }
-            // The updated Jacobian may be wrong rather than the step size.
+            // The updated Jacobian, not the step size, may be the cause of the failure.
             if !fresh {
                 return self.newton(map);
             }
@@ -238,19 +238,19 @@ impl Search {
         Ok(self.size() <= self.least_sure())
     }
 
-    /// Returns the number of periods to convergence if each reduces the defect by `rate`. A new Jacobian takes one period per unknown.
+    /// Returns the number of periods to convergence if each period reduces the defect by `rate`. A new Jacobian takes one per unknown.
     fn lasts(&self, rate: f64, size: f64) -> f64 {
         math::ln(size / self.goal).max(0.0) / -math::ln(rate)
     }
 
-    /// Tries a fraction of a step. Accepts it if the defect decreases by a quarter of that fraction.
+    /// Tries a fraction of a Newton step. Accepts the step if the defect decreases by at least a quarter of the fraction.
     fn try_step(
         &mut self,
         map: &mut Map<'_>,
         (gradient, step): (&Gradient, &DVector<f64>),
         (defect, share): (&DVector<f64>, f64),
     ) -> Result<bool, SteadyError> {
-        // Memory outside of the map is taken from the image, which is newer.
+        // Memory outside of the Poincaré map is taken from the image, which is the state one period later.
         let along = step * share;
         let Some(state) = map.moved(&self.image.state, &(&along - defect)) else { return Ok(false) };
         let image = match map.image(&state, 1.0) {
@@ -273,7 +273,7 @@ impl Search {
     }
 }
 
-/// Returns whether two defects are equal within the tolerance and large enough to compare.
+/// Returns whether two defects are equal within the tolerance and sufficiently large for a comparison.
 fn is_alike(first: &DVector<f64>, other: &DVector<f64>, tolerance: f64) -> bool {
     let size = first.amax();
     first.len() == other.len()
@@ -281,7 +281,7 @@ fn is_alike(first: &DVector<f64>, other: &DVector<f64>, tolerance: f64) -> bool 
         && (first - other).amax() <= ALIKE * size + tolerance
 }
 
-/// Returns the Newton step (1 - A)⁻¹ r; the shortest one if there are several.
+/// Returns the Newton step (1 - A)⁻¹ r, or the shortest of several solutions.
 fn step(gradient: &DMatrix<f64>, defect: &DVector<f64>) -> Option<DVector<f64>> {
     let count = defect.len();
     let matrix = DMatrix::identity(count, count) - gradient;
@@ -299,8 +299,8 @@ pub(super) fn solve(matrix: DMatrix<f64>, right: &DVector<f64>) -> Option<DVecto
     svd.solve(right, flat).ok()
 }
 
-/// Broyden's update: the Jacobian that agrees with the last step and differs least. For the Jacobian A of P and r = P -
-/// s: Δr = (A - 1) Δs.
+/// Applies Broyden's update: the new Jacobian agrees with the last step and differs least from the old one. With the Jacobian A of P and r
+/// = P - s, the condition is Δr = (A - 1) Δs.
 fn mended(
     gradient: &Gradient,
     (along, before, after): (&DVector<f64>, &DVector<f64>, &DVector<f64>),

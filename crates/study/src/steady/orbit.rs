@@ -6,14 +6,14 @@ use stickslip_drive::section::Section;
 use stickslip_drive::{Event, Limits, Model, Plan, Record, Run, State, Stepper};
 use stickslip_run::{Job, Series};
 
-/// Relative margin by which an instant with waveform corners is passed, because it is a rounded sum.
+/// Relative margin added to an instant with waveform corners, because the instant is a rounded sum.
 const BEYOND: f64 = 4.0 * f64::EPSILON;
 
 /// One period of a periodic orbit.
 #[derive(Debug, Clone)]
 pub struct Orbit {
-    /// State at the start: at the earliest time at which everything is periodic. Bodies have the positions of a run from the start, apart
-    /// from their motion in the orbit. The energy balance starts at zero.
+    /// State at the earliest time at which all waveforms are periodic. Apart from their motion in the orbit, bodies have the positions of a
+    /// run from the start. The energy balance starts at zero.
     pub start: State,
     /// Samples at regular times and after events.
     pub series: Series,
@@ -47,8 +47,8 @@ impl Steady {
         Ok(Orbit { start, series: record.0 })
     }
 
-    /// Returns a job of the same drive with endless waveforms, with results in `folder`. A run of it may start with the
-    /// state at the start of an orbit.
+    /// Returns a runnable scenario of the same drive with endless waveforms, with results in `folder`. A run of this scenario may start
+    /// with the state at the start of an orbit.
     ///
     /// # Errors
     ///
@@ -57,14 +57,14 @@ impl Steady {
         endless::job(job, self.beginning(job), folder)
     }
 
-    /// Returns the start of the first period of the waveform named in `figures` after which everything is periodic, s.
+    /// Returns the first start of a period of the waveform named in `figures` after which all waveforms are periodic, s.
     fn beginning(&self, job: &Job) -> f64 {
         let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
         let delay = waveform.map_or(0.0, |waveform| waveform.part.timing().delay);
         delay + ((self.begins.max(0.0) - delay) / self.period).ceil() * self.period
     }
 
-    /// Returns the state of the orbit at that time.
+    /// Returns the state of the orbit at the start of this period.
     pub(super) fn start(&self, job: &Job) -> Result<State, SteadyError> {
         let plan = self.plan(job);
         let begins = self.beginning(job);
@@ -86,7 +86,7 @@ impl Steady {
     }
 }
 
-/// Simulates a state until a time, s. Commits the slip memories at the end.
+/// Simulates a state until a time, s, and then commits the slip memories.
 fn led(model: &Model, plan: &Plan, state: State, until: f64) -> Result<State, SteadyError> {
     let mut run = Run::new(model, plan, state)?;
     run.advance(until, &mut ())?;

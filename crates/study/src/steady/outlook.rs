@@ -6,21 +6,21 @@ use stickslip_drive::scene::{Coordinate, EngineChoice, Freedom, Scene};
 use stickslip_run::outlook::{Outlook, Repetition};
 use stickslip_run::{Job, Real};
 
-/// Tolerance of the local error per time step: gives about six digits of the step length.
+/// Tolerance of the local error per time step, which gives about six digits of the step length.
 const TOLERANCE: f64 = 1e-9;
 /// Maximum number of time steps for a small model.
 const STEPS: u64 = 75_000;
-/// The search may cost this fraction (1/5) of the time steps of a run.
+/// Ratio of the time steps of a run to the maximum time steps of the search: a fifth of the steps is allowed.
 const SHARE: u64 = 5;
 /// Minimum number of periods of a search: four simulated, one for Newton's method, two for the error estimate, two for verification.
 const LEAST: u64 = 9;
 /// Number of free coordinates and contacts up to which a model is small.
 const FEW: usize = 16;
-/// Number of springs in a row that cost as much as a contact with a memory curve.
+/// Number of discrete springs that cost as much as a contact with a piecewise linear slip memory.
 const SPRINGS: usize = 64;
 
 impl Steady {
-    /// Returns the entry for the summary of a run. Returns `None` if no body makes steps.
+    /// Returns the entry about the periodic orbit for the summary of a run. Returns `None` if no body makes steps.
     #[must_use]
     pub fn repetition(&self, job: &Job) -> Option<Repetition> {
         let waveform = job.scenario.figures.waveform.and_then(|w| job.scenario.scene.waveforms.get(w));
@@ -52,13 +52,13 @@ impl Steady {
         })
     }
 
-    /// Returns the phrase that the effect of some disturbances is unknown.
+    /// Returns a phrase which states that the effect of some disturbances is unknown.
     fn not_told(&self) -> Option<String> {
         Some(format!("; the effect of {} is not known", self.names_untold()?))
     }
 
-    /// Describes a disturbance: the largest multiplier; if it is neutral, also the slowest decaying one; and whether
-    /// the orbit is one of a family.
+    /// Describes a disturbance by the largest multiplier. If it is neutral, also describes the slowest decaying multiplier, and states
+    /// whether the orbit is one of a family.
     fn becomes(&self) -> String {
         let Some(largest) = self.multipliers.first() else { return "vanishes within a period".to_owned() };
         let stays = largest.kind() == Kind::Stays;
@@ -71,7 +71,7 @@ impl Steady {
     }
 }
 
-/// Returns the maximum number of time steps: fewer for larger models. Counting steps instead of time gives the same
+/// Returns the maximum number of time steps of the search; larger models get fewer steps. A limit of steps instead of time gives the same
 /// answer on all machines.
 fn steps(scene: &Scene) -> u64 {
     let is_free = |coordinate: &Coordinate| coordinate.freedom == Freedom::Free;
@@ -85,7 +85,7 @@ fn steps(scene: &Scene) -> u64 {
     STEPS * FEW as u64 / parts as u64
 }
 
-/// Returns the entry for a search that reached its limit.
+/// Returns the entry for a search that reached its limit of time steps.
 fn too_few(steps: u64) -> Outlook {
     let asked = "`stickslip steady` and figures.steady_motion=true search without this limit";
     Outlook::NotFound {
@@ -95,10 +95,10 @@ fn too_few(steps: u64) -> Outlook {
     }
 }
 
-/// Searches for the periodic orbit of a job's drive at limited cost, or without limit if the scenario requests it.
+/// Searches for the periodic orbit of a drive at limited cost, or without limit if the scenario requests this.
 ///
-/// Returns `None` if the scenario excludes the search, has no period, or has no free body named in `figures`. With the counts of a run,
-/// the search costs at most a fifth of its time steps. `goes_on` is called before every period; `false` interrupts the search.
+/// Returns `None` if the scenario excludes the search, has no period, or has no free body named in `figures`. With the counts of a run, the
+/// search takes at most a fifth of the run's time steps. `goes_on` is called before every period; `false` interrupts the search.
 pub fn outlook(job: &Job, run: Option<Counts>, goes_on: &dyn Fn() -> bool) -> Option<Outlook> {
     let (_, waveform) = job.scenario.figures.body.zip(job.scenario.figures.waveform)?;
     let share = run.map(|run| (run.steps + run.rejected) / SHARE);
@@ -122,7 +122,7 @@ pub fn outlook(job: &Job, run: Option<Counts>, goes_on: &dyn Fn() -> bool) -> Op
             | SteadyError::Interrupted(_),
         ) => None,
         Err(SteadyError::Costly { steps }) if Some(steps) == share => Some(too_few(steps)),
-        // The first line is the error, the others are advice.
+        // The first line of the message is the error, further lines are advice.
         Err(error) => {
             let fault = error.to_string().lines().next().unwrap_or_default().to_owned();
             Some(Outlook::NotFound { fault })

@@ -164,14 +164,14 @@ impl Report {
         }
     }
 
-    /// Returns JSON in one line.
+    /// Returns the report as JSON in one line.
     #[must_use]
     pub fn line(&self) -> String {
         // Numbers and strings only: serialisation cannot fail.
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// Returns indented JSON.
+    /// Returns the report as indented JSON.
     #[must_use]
     pub fn file(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
@@ -215,7 +215,7 @@ impl AftermathReport {
 }
 
 impl Kind {
-    /// Returns the word in files.
+    /// Returns the name of the behaviour in output files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -10,7 +10,7 @@ pub(super) struct Tally(BTreeMap<String, usize>);
 
 /// Returns whether an event characterises a motion.
 ///
-/// Excluded are corners of waveforms, turns, which only some contacts report, and closed loops. Rounding decides
+/// Three types of events are excluded: corners of waveforms, reversals, which only some contacts report, and closed loops. Rounding decides
 /// whether a loop closes just before the next event or with it.
 pub(super) fn tells(event: &Event) -> bool {
     let of_waveform = matches!(event.source, Source::Waveform(_));

@@ -12,7 +12,7 @@ impl Study {
     /// digits to restore all bits.
     ///
     /// # Errors
-    /// Fails if parts are missing or cannot be read, or the file cannot be written; then no file is left.
+    /// Fails if parts are missing or cannot be read, or if the file cannot be written. No incomplete file is left.
     pub fn write_csv(&self, parts: &Path, path: &Path) -> Result<(), StudyError> {
         self.check_complete(parts)?;
         let failed = |source: io::Error| StudyError::Disk { path: path.to_owned(), source };
@@ -49,7 +49,7 @@ impl Study {
         Ok(())
     }
 
-    /// Formats a result: a number, a word, or nothing.
+    /// Formats a result as a number, as a word, or as an empty cell.
     fn cell(&self, result: usize, value: f64) -> String {
         if !value.is_finite() {
             return String::new();

@@ -30,7 +30,7 @@ pub(crate) enum Source {
 
 /// Cases of a study.
 ///
-/// Case i has sample ⌊i/G⌋ at point i mod G of the product of grids and lists, which has G points. The last axis in the file changes
+/// A product of grids and lists has G points. Case i has sample ⌊i/G⌋ at point i mod G of this product. The last axis in the file changes
 /// fastest. All grid points have the same samples, and additional cases are appended.
 #[derive(Debug, Clone)]
 pub(crate) struct Design {
@@ -124,7 +124,7 @@ impl Design {
         }
     }
 
-    /// Returns the point of the unit cube of a sample.
+    /// Returns the point of the unit cube that belongs to a sample.
     fn point<'p>(&self, sample: u64, few: &'p mut [f64; 2 * FEW], more: &'p mut Vec<f64>) -> &'p [f64] {
         let Some(points) = &self.points else { return &[] };
         let k = self.spreads;
@@ -157,7 +157,7 @@ impl Design {
         self.axes.iter().zip(numbers).map(|(axis, number)| (axis.path.clone(), text(*number))).collect()
     }
 
-    /// Returns everything on which the parameter values of a case depend.
+    /// Returns all data on which the parameter values of a case depend.
     pub(crate) fn definition(&self) -> Value {
         let axis = |axis: &Axis| match &axis.source {
             Source::Values(values) => json!({ "path": axis.path, "values": values }),
@@ -170,7 +170,7 @@ impl Design {
     }
 }
 
-/// Number of distributions up to which no heap allocation is needed.
+/// Number of distributions up to which the values of a case need no heap allocation.
 const FEW: usize = 16;
 
 fn axis(file: &StudyFile, (parameter, variation): &(Parameter, Variation)) -> Result<Axis, ScenarioError> {

@@ -13,21 +13,21 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use stickslip_run::{Watcher, folder};
 
-/// Number of cases that a thread takes at a time if cases cost microseconds. It keeps the wait for the last thread short.
+/// Number of cases that a thread takes at a time if a case costs microseconds. A small number shortens the wait for the last thread.
 const BLOCK: u64 = 32;
 
 /// Result of a study command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Ran {
-    /// Number of parts computed.
+    /// Number of parts that this command computed.
     pub computed: u64,
-    /// Number of parts that existed before.
+    /// Number of parts that existed before the command.
     pub there: u64,
     /// Whether the study was interrupted before all parts were finished.
     pub interrupted: bool,
 }
 
-/// Queue of parts and of unfinished results.
+/// Queue of parts that are not started, and of parts with unfinished results.
 struct Desk {
     /// Parts not yet started.
     waiting: VecDeque<u64>,
@@ -48,8 +48,8 @@ struct Begun {
 impl Study {
     /// Computes the missing parts of a shard in a folder, on `threads` threads. The watcher receives the number of finished cases.
     ///
-    /// A part is written to a temporary file and renamed when complete. Its content depends only on the study and the
-    /// program version. Existing parts are not computed again.
+    /// A part is written to a temporary file and renamed when complete. The content of a part depends only on the study and the program
+    /// version. Existing parts are not computed again.
     ///
     /// # Errors
     /// Fails if there are parts of another study, or the folder cannot be written. Finished parts are kept.
@@ -76,7 +76,7 @@ impl Study {
         let work = || {
             let mut worker = Worker::new(self, shortcut.as_ref(), &stop);
             loop {
-                // Outside the loop condition, which would hold the lock during the body.
+                // The queue is locked outside of the loop condition, which would hold the lock during the body.
                 let next = lock(&desk).take(self, block);
                 let Some((part, cases)) = next else { break };
                 let finished = match self.block(&mut worker, cases.clone()) {
@@ -109,7 +109,7 @@ impl Study {
         }
     }
 
-    /// Computes the rows of some cases. Returns `None` if interrupted.
+    /// Computes the rows of some cases, or returns `None` if interrupted.
     fn block(&self, worker: &mut Worker<'_>, cases: Range<u64>) -> Option<Rows> {
         let mut rows = Rows::default();
         let width = self.wanted.len();
@@ -136,7 +136,7 @@ impl Study {
 }
 
 impl Desk {
-    /// Returns the next cases and their part.
+    /// Returns the next cases for a thread, and the part that contains these cases.
     fn take(&mut self, study: &Study, block: u64) -> Option<(u64, Range<u64>)> {
         if self.cases.is_empty() {
             self.part = self.waiting.pop_front()?;
@@ -153,7 +153,7 @@ impl Desk {
         Some((self.part, from..self.cases.start))
     }
 
-    /// Stores rows. Returns the part when it is complete.
+    /// Stores the rows of some cases in their part. Returns the rows of the part when it is complete.
     fn give(&mut self, study: &Study, part: u64, cases: &Range<u64>, rows: &Rows) -> Option<Rows> {
         let place = self.open.iter().position(|begun| begun.part == part)?;
         let begun = &mut self.open[place];

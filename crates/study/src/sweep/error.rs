@@ -36,7 +36,7 @@ pub enum StudyError {
         /// Kind of damage.
         why: String,
     },
-    /// Parts are missing although all are needed.
+    /// Parts are missing although all parts are needed.
     #[error("{missing} of {of} parts are missing\n   help: `stickslip study run` computes them")]
     Incomplete {
         /// Number of missing parts.
@@ -59,7 +59,7 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// Returns whether the error is in the input instead of the file system or the runs.
+    /// Returns whether the error is due to the input, not to the file system or the runs.
     #[must_use]
     pub fn is_input(&self) -> bool {
         !matches!(self, Self::Disk { .. } | Self::Damaged { .. } | Self::AllFailed(_) | Self::Interrupted)

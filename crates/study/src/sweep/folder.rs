@@ -7,25 +7,25 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// Parts in a folder.
+/// State of a folder of parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Status {
     /// Number of parts in the folder.
     pub parts: u64,
     /// Number of parts of the study.
     pub of: u64,
-    /// Parts that are missing or damaged.
+    /// Numbers of the parts that are missing or damaged.
     pub missing: Vec<u64>,
-    /// Parts that are damaged. They are computed again.
+    /// Numbers of damaged parts, which will be computed again.
     pub damaged: Vec<u64>,
 }
 
 impl Study {
-    /// Returns which parts are in a folder. Writes nothing. A part with fewer cases, from the same study before it was
-    /// enlarged, counts as missing.
+    /// Returns which parts are in a folder, without writing to it. A part with fewer cases, written before the study was enlarged, counts
+    /// as missing.
     ///
     /// # Errors
-    /// Fails if there are parts of another study or with more cases than the study has, or the folder cannot be read.
+    /// Fails if the folder has parts of another study or with more cases than the study has, or cannot be read.
     pub fn status(&self, folder: &Path) -> Result<Status, StudyError> {
         let mut found = vec![false; usize::try_from(self.parts()).unwrap_or(usize::MAX)];
         let mut damaged = Vec::new();
@@ -65,7 +65,7 @@ impl Study {
         }
     }
 
-    /// Returns the part numbers of all files with names of parts.
+    /// Returns the part numbers in the names of all part files.
     fn numbers(&self, folder: &Path) -> Result<Vec<u64>, StudyError> {
         let failed = |source| StudyError::Disk { path: folder.to_owned(), source };
         let entries = match fs::read_dir(folder) {
@@ -84,7 +84,7 @@ impl Study {
     /// Deletes all parts of this study from a folder.
     ///
     /// # Errors
-    /// Fails if there are parts of another study; then nothing is deleted. Fails if a part cannot be deleted.
+    /// Fails without deleting anything if the folder has parts of another study. Fails if a part cannot be deleted.
     pub fn remove(&self, folder: &Path) -> Result<(), StudyError> {
         self.status(folder)?;
         for number in self.numbers(folder)? {
@@ -97,7 +97,7 @@ impl Study {
     /// Checks that all parts are in a folder.
     ///
     /// # Errors
-    /// Fails if parts are missing, and as [`Self::status`].
+    /// Fails if parts are missing, or if [`Self::status`] fails.
     pub(crate) fn check_complete(&self, folder: &Path) -> Result<(), StudyError> {
         let Status { missing, of, .. } = self.status(folder)?;
         match missing.len() as u64 {
@@ -106,7 +106,7 @@ impl Study {
         }
     }
 
-    /// Calls `act` for every part in order. The folder must have all parts.
+    /// Calls `act` for every part in order. The folder must contain all parts.
     pub(crate) fn each_part(
         &self,
         folder: &Path,

@@ -41,8 +41,8 @@ pub struct IndexOf {
 }
 
 impl Study {
-    /// Returns the study with the cases for the indices, and the folder of its parts. It is this study if its sampling
-    /// is Saltelli's scheme, otherwise a study with as many base samples as this one has samples.
+    /// Returns the study with the cases for the indices, and the folder of its parts. A study with Saltelli's sampling is returned
+    /// unchanged. For other samplings, the returned study has one base sample per sample of this study.
     ///
     /// # Errors
     /// The study has grids or lists, or no distribution.

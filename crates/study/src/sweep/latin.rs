@@ -1,14 +1,13 @@
 //! Strata of a Latin hypercube: a pseudo-random permutation, computed element by element without storage.
 
-/// Number of rounds of the Feistel network, even. Four suffice for long permutations, short ones need more.
+/// Number of rounds of the Feistel network, even. Four rounds suffice for long permutations; short permutations need more.
 pub(crate) const ROUNDS: usize = 8;
 
 /// A pseudo-random permutation of 0..count, selected by the keys.
 ///
-/// It is a Feistel network on pairs (left, right) with left < rows and right < columns, rows * columns >= count. Each
-/// round adds a hash of one half to the other, which is invertible. If a result is not in
-/// 0..count, the network is applied again ("cycle walking"). Source: J. Black and P. Rogaway, "Ciphers with arbitrary
-/// finite domains", CT-RSA 2002.
+/// The permutation is a Feistel network on pairs (left, right) with left < rows and right < columns, rows * columns >= count. Each round
+/// adds a hash of one half to the other half, which is invertible. If a result is not in 0..count, the network is applied again ("cycle
+/// walking"). Source: Black and Rogaway, "Ciphers with arbitrary finite domains", CT-RSA 2002.
 #[derive(Debug, Clone)]
 pub(crate) struct Permutation {
     count: u64,
@@ -34,7 +33,7 @@ impl Permutation {
         place
     }
 
-    /// Applies the network once.
+    /// Applies the Feistel network once.
     fn through(&self, place: u64) -> u64 {
         let (mut left, mut right) = (place / self.columns, place % self.columns);
         for [first, second] in self.keys.as_chunks::<2>().0 {
@@ -52,8 +51,8 @@ fn sum(x: u64, hash: u64, size: u64) -> u64 {
     if sum < size { sum } else { sum - size }
 }
 
-/// Returns mixed bits, each of which depends on all bits of `x`: the finaliser of SplitMix64 (G. L. Steele, D. Lea and
-/// C. H. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
+/// Returns mixed bits, each of which depends on all bits of `x`: the finaliser of SplitMix64 (Steele, Lea and Flood, "Fast splittable
+/// pseudorandom number generators", OOPSLA 2014).
 fn hash(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -64,8 +63,8 @@ fn hash(x: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// All six orders of three elements, and all 24 of four, are about equally frequent. Chi-squared with 5 and 23
-    /// degrees of freedom stays below the 99.99 % quantiles 25.7 and 56.0.
+    /// All six orders of three elements, and all 24 orders of four elements, are about equally frequent. Chi-squared with 5 and 23 degrees
+    /// of freedom stays below the 99.99 % quantiles 25.7 and 56.0.
     #[test]
     fn every_order_is_as_likely() {
         for (count, orders, most) in [(3, 6, 25.7), (4, 24, 56.0)] {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Numerator for |p - 1/2| <= 0.425 in 0.180625 - (p - 1/2)^2, highest power first.
+/// Numerator of R for |p - 1/2| <= 0.425, in powers of 0.180625 - (p - 1/2)^2, highest power first.
 const CENTRE_TOP: [f64; 8] = [
     2509.0809287301227,
     33430.57558358813,
@@ -13,7 +13,7 @@ const CENTRE_TOP: [f64; 8] = [
     133.14166789178438,
     3.3871328727963665,
 ];
-/// Denominator for the same range.
+/// Denominator of R for |p - 1/2| <= 0.425, highest power first.
 const CENTRE_BOTTOM: [f64; 8] = [
     5226.495278852854,
     28729.085735721943,
@@ -24,7 +24,7 @@ const CENTRE_BOTTOM: [f64; 8] = [
     42.31333070160091,
     1.0,
 ];
-/// Numerator for r <= 5 in r - 1.6, highest power first.
+/// Numerator of R for r <= 5, in powers of r - 1.6, highest power first.
 const NEAR_TOP: [f64; 8] = [
     0.0007745450142783414,
     0.022723844989269184,
@@ -35,7 +35,7 @@ const NEAR_TOP: [f64; 8] = [
     4.630337846156546,
     1.4234371107496835,
 ];
-/// Denominator for the same range.
+/// Denominator of R for r <= 5, highest power first.
 const NEAR_BOTTOM: [f64; 8] = [
     1.0507500716444169e-09,
     0.0005475938084995345,
@@ -46,7 +46,7 @@ const NEAR_BOTTOM: [f64; 8] = [
     2.053191626637759,
     1.0,
 ];
-/// Numerator for r > 5 in r - 5, highest power first.
+/// Numerator of R for r > 5, in powers of r - 5, highest power first.
 const FAR_TOP: [f64; 8] = [
     2.0103343992922881e-07,
     2.7115555687434876e-05,
@@ -57,7 +57,7 @@ const FAR_TOP: [f64; 8] = [
     5.463784911164114,
     6.657904643501103,
 ];
-/// Denominator for the same range.
+/// Denominator of R for r > 5, highest power first.
 const FAR_BOTTOM: [f64; 8] = [
     2.0442631033899397e-15,
     1.421511758316446e-07,
@@ -71,7 +71,7 @@ const FAR_BOTTOM: [f64; 8] = [
 
 /// Returns the probability that a standard normal variable is at most `z`: erfc(-z / sqrt(2)) / 2.
 ///
-/// The relative accuracy holds in the lower tail, down to z = -37. For the upper tail use `cumulative(-z)`, the probability above `z`.
+/// The result is relatively accurate in the lower tail, down to z = -37. In the upper tail, `cumulative(-z)` is the probability above `z`.
 pub(crate) fn cumulative(z: f64) -> f64 {
     0.5 * math::erfc(-z * FRAC_1_SQRT_2)
 }
@@ -79,9 +79,9 @@ pub(crate) fn cumulative(z: f64) -> f64 {
 /// Returns the quantile of the standard normal distribution for the probability `p`, to about 16 digits. Returns -+
 /// infinity for p = 0 and 1.
 ///
-/// M. J. Wichura, "Algorithm AS 241: The percentage points of the normal distribution", Applied Statistics 37 (1988),
-/// 477-484, routine PPND16. With q = p - 1/2, z = q R(0.180625 - q^2) in the centre. In the
-/// tails z = -+ R(r - constant) with r = sqrt(-ln(min(p, 1 - p))). R is a ratio of two polynomials of degree 7.
+/// Source: Wichura, "Algorithm AS 241: The percentage points of the normal distribution", Applied Statistics 37 (1988), 477-484, routine
+/// PPND16. With q = p - 1/2, z = q R(0.180625 - q^2) in the centre. In the tails z = -+ R(r - constant) with r = sqrt(-ln(min(p, 1 - p))).
+/// R is a ratio of two polynomials of degree 7.
 pub(crate) fn inverse(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {

@@ -35,7 +35,7 @@ pub(crate) const ERROR: &str = "error";
 pub(crate) struct Rows {
     /// Results, row after row; NaN if missing.
     pub(crate) results: Vec<f64>,
-    /// Reason for each case without results.
+    /// Reason why a case has no results; `None` for cases with results.
     pub(crate) errors: Vec<Option<String>>,
 }
 
@@ -90,7 +90,7 @@ fn properties(study: &Study, first: u64) -> WriterProperties {
         said(FIRST, first.to_string()),
     ];
     for wanted in &study.wanted {
-        // Lists of words have no JSON errors.
+        // Serialisation cannot fail, because codes are lists of strings.
         let words = wanted.codes.as_ref().map(|codes| serde_json::to_string(codes).unwrap_or_default());
         metadata.extend(words.map(|words| said(&format!("{CODES}{}", wanted.name), words)));
     }
@@ -154,13 +154,13 @@ fn column<T: DataType>(
     values: &[T::T],
     levels: Option<&[i16]>,
 ) -> Result<(), ParquetError> {
-    let missing = || ParquetError::General("a column too many".to_owned());
+    let missing = || ParquetError::General("more columns than in the schema".to_owned());
     let mut column = group.next_column()?.ok_or_else(missing)?;
     column.typed::<T>().write_batch(values, levels, None)?;
     column.close()
 }
 
-/// Reads the metadata of a file. Returns `None` if it is not a complete Parquet file.
+/// Reads the metadata of a part, or returns `None` if the file is not a complete Parquet file.
 pub(crate) fn label(path: &Path) -> io::Result<Option<Label>> {
     let file = File::open(path)?;
     let Ok(metadata) = ParquetMetaDataReader::new().parse_and_finish(&file) else { return Ok(None) };
@@ -178,7 +178,7 @@ pub(crate) fn label(path: &Path) -> io::Result<Option<Label>> {
             rows,
         })
     };
-    // A complete file without our metadata is from another program.
+    // A complete file without the metadata of this program was written by another program.
     Ok(Some(label().unwrap_or(Label { study: String::new(), program: String::new(), first: 0, rows })))
 }
 
@@ -192,7 +192,7 @@ impl Open {
     /// Opens a part of a study.
     ///
     /// # Errors
-    /// Fails if the file cannot be read or has other columns.
+    /// Fails if the file cannot be read or its columns differ from those of the study.
     pub(crate) fn new(study: &Study, path: &Path) -> Result<Self, ParquetError> {
         let file = File::open(path)?;
         let reader = SerializedFileReader::new(file)?;
@@ -201,7 +201,7 @@ impl Open {
             && metadata.file_metadata().schema_descr().root_schema().get_fields()
                 == schema(study)?.get_fields();
         if !is_ours {
-            return Err(ParquetError::General("its columns are not those of the study".to_owned()));
+            return Err(ParquetError::General("its columns differ from the study".to_owned()));
         }
         let rows = usize::try_from(metadata.file_metadata().num_rows()).unwrap_or(0);
         Ok(Self { reader, rows })
@@ -218,14 +218,14 @@ impl Open {
         while left > 0 {
             let (records, ..) = reader.read_records(left, Some(&mut levels), None, &mut values)?;
             if records == 0 {
-                return Err(ParquetError::EOF("a column ends before its rows do".to_owned()));
+                return Err(ParquetError::EOF("a column has too few rows".to_owned()));
             }
             left -= records;
         }
         Ok((values, levels))
     }
 
-    /// Reads a result of each case; NaN if missing.
+    /// Reads a result of each case; NaN for cases without the result.
     pub(crate) fn result(&self, study: &Study, result: usize) -> Result<Vec<f64>, ParquetError> {
         let place = 1 + study.design.axes.len() + result;
         let (values, levels) = if study.wanted.get(result).is_some_and(|wanted| wanted.codes.is_some()) {
@@ -241,7 +241,7 @@ impl Open {
             .collect())
     }
 
-    /// Reads the reason for each case without results.
+    /// Reads the reason why a case has no results, for each case of the part.
     pub(crate) fn errors(&self, study: &Study) -> Result<Vec<Option<String>>, ParquetError> {
         let (texts, levels) = self.read::<ByteArrayType>(1 + study.design.axes.len() + study.wanted.len())?;
         let mut texts = texts.iter().map(|text| String::from_utf8_lossy(text.data()).into_owned());

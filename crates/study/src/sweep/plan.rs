@@ -11,7 +11,7 @@ use stickslip_run::Watcher;
 
 /// Number of cases that are run for the estimate, evenly distributed over the study.
 const DRAWN: u64 = 10;
-/// Shortest total wall time of these cases, s. Short cases are repeated.
+/// Shortest total wall time of the cases for the estimate, s. Cases are repeated until this time is reached.
 const LEAST: f64 = 0.05;
 /// Mean number of bytes of a number in a compressed part.
 const BYTES: u64 = 7;
@@ -62,7 +62,7 @@ impl Study {
             results.clear();
             Ok(begun.elapsed().as_secs_f64() / drawn as f64)
         };
-        // The first pass includes reading the numbers, which is negligible in a long study.
+        // The first pass includes reading the scenario, which takes negligible time in a long study.
         let first = pass(&mut failed)?;
         let mut rest = Vec::new();
         while first * drawn as f64 + rest.iter().sum::<f64>() * (drawn as f64) < LEAST {

@@ -1,5 +1,5 @@
-//! Sample points in the unit cube. Each point is computed from its index alone, so it does not depend on other points,
-//! their order or the machine.
+//! Sample points in the unit cube. A point is computed from its index alone, so it depends neither on other points nor on their order nor
+//! on the machine.
 
 use super::latin::{Permutation, ROUNDS};
 use super::sobol_points::{MOST_DIMENSIONS, MOST_POINTS, Sobol};
@@ -13,7 +13,7 @@ pub(crate) enum Sampling {
     Random,
     /// Low-discrepancy Sobol sequence with a random digital shift.
     Sobol,
-    /// Latin hypercube: in each dimension, one point in each of `count` equal strata.
+    /// Latin hypercube: in each dimension, each of `count` equal strata contains one point.
     LatinHypercube,
 }
 
@@ -41,11 +41,11 @@ enum Purpose {
 }
 
 impl Points {
-    /// Creates the points 0..count in `dimensions` dimensions. The seed selects the random numbers, the digital shift
-    /// or the order of the strata.
+    /// Creates the points 0..count in `dimensions` dimensions. The seed selects the random numbers, the digital shift or the order of the
+    /// strata.
     ///
     /// # Errors
-    /// Fails if there are no points or dimensions, or more than the sampling supports.
+    /// Fails if the number of points or dimensions is 0 or more than the sampling supports.
     pub(crate) fn new(sampling: Sampling, dimensions: usize, seed: u64, count: u64) -> Result<Self, String> {
         check(sampling, dimensions, count)?;
         let layout = match sampling {
@@ -65,17 +65,17 @@ impl Points {
         Ok(Self { seed, layout })
     }
 
-    /// Creates the Sobol sequence without shift, as other programs have it.
+    /// Creates the Sobol sequence without digital shift, for comparison with other programs.
     ///
     /// # Errors
-    /// Fails if there are no points or dimensions, or more than the sequence supports.
+    /// Fails if the number of points or dimensions is 0 or more than the sequence supports.
     #[cfg(test)]
     pub(crate) fn unshifted(dimensions: usize, count: u64) -> Result<Self, String> {
         check(Sampling::Sobol, dimensions, count)?;
         Ok(Self { seed: 0, layout: Layout::Sobol(Sobol::new(vec![0; dimensions])) })
     }
 
-    /// Writes point `index`, below `count`. Each coordinate is above 0 and below 1.
+    /// Writes the coordinates of point `index`, below `count`. All coordinates are above 0 and below 1.
     pub(crate) fn write(&self, index: u64, point: &mut [f64]) {
         match &self.layout {
             Layout::Random => {
@@ -93,20 +93,20 @@ impl Points {
     }
 }
 
-/// Returns a random number inside one of `count` equal strata of 0..1. Stratum number and position have 48 bits
-/// together, so rounding does not move the number into the next stratum.
+/// Returns a random number inside one of `count` equal strata of 0..1. Stratum number and position in the stratum have 48 bits together, so
+/// rounding does not move the number into the next stratum.
 fn inside(stratum: u64, count: u64, random: u64) -> f64 {
     let bits = 48 - (count - 1).checked_ilog2().map_or(0, |log| log + 1);
     (stratum as f64 + centred(random, bits)) / count as f64
 }
 
-/// Returns a random number at the exact centre of one of 2^bits equal parts of 0..1; at most 52 bits.
+/// Returns a random number that is the exact centre of one of 2^bits equal parts of 0..1; at most 52 bits.
 fn centred(random: u64, bits: u32) -> f64 {
     ((random >> (64 - bits)) as f64 + 0.5) / (1_u64 << bits) as f64
 }
 
-/// Returns the random numbers of a seed, purpose and stream. ChaCha with 8 rounds is counter-based and gives the same
-/// bits on every machine.
+/// Returns the random numbers of a seed, purpose and stream. The generator, ChaCha with 8 rounds, is counter-based and gives the same bits
+/// on every machine.
 fn generator(seed: u64, purpose: Purpose, stream: u64) -> ChaCha8Rng {
     let mut key = [0; 32];
     key[..8].copy_from_slice(&seed.to_le_bytes());

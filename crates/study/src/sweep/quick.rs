@@ -1,5 +1,5 @@
-//! Fast runs of cases: parameters are set in the resolved scenario, without reading it again. Model, state and
-//! workspace reuse the memory of the run before.
+//! Fast runs of cases: parameters are set in the resolved scenario, without reading the scenario again. Model, state and workspace reuse
+//! the memory of the previous run.
 
 use super::Study;
 use super::wanted::{Place, Wanted};
@@ -19,8 +19,8 @@ pub(crate) struct Shortcut {
 }
 
 impl Shortcut {
-    /// Creates it for a study. Returns `None` if a parameter cannot be set directly or a result needs more than a few
-    /// instants of a run. Also returns `None` if the run ends when its steps are steady.
+    /// Creates the data for fast runs of a study. Returns `None` if a parameter cannot be set directly, a result needs rows of the time
+    /// histories, or the run ends when its steps are steady.
     pub(crate) fn of(study: &Study) -> Option<Self> {
         let scenario = &study.job.scenario;
         let scene = scenario.scene.clone();
@@ -35,7 +35,7 @@ impl Shortcut {
     }
 }
 
-/// Returns the form in which a result can be evaluated during a run, if it has one.
+/// Returns the form of a result that can be evaluated during a run, or `None` if the result has no such form.
 fn figure(study: &Study, wanted: &Wanted) -> Option<Figure> {
     let scenario = &study.job.scenario;
     if let Place::End(place) = wanted.place {
@@ -72,9 +72,9 @@ impl<'s> Quick<'s> {
         Self { shortcut, scene: shortcut.scene.clone(), sketches, variants: Variants::new(), reading }
     }
 
-    /// Returns the results of a case, or `None` if it fails.
+    /// Returns the results of a case, or `None` if the case fails.
     pub(crate) fn run(&mut self, numbers: &[f64]) -> Option<&[f64]> {
-        // Sets all parameters even if one is invalid, so that the next case does not inherit old values.
+        // All parameters are set even if one is invalid, so that the next case does not inherit old values.
         let is_set = self.set(numbers);
         let plan = &self.shortcut.plan;
         self.reading.begin(&self.scene, plan);

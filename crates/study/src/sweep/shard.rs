@@ -3,7 +3,7 @@
 use super::StudyError;
 use std::str::FromStr;
 
-/// One of several processes that share a study. Shard i of n computes the parts i - 1, i - 1 + n, …
+/// One of several processes that share a study. Shard i of n computes the parts with numbers i - 1, i - 1 + n, i - 1 + 2 n, …
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Index, from 0.
@@ -12,7 +12,7 @@ pub struct Shard {
     count: u64,
 }
 
-/// Environment variables of array jobs: task number, smallest task number, number of tasks; and the name of the scheduler.
+/// Environment variables of array jobs: task number, smallest task number and number of tasks; and the name of the scheduler.
 const ARRAYS: [(&str, &str, &str, &str); 4] = [
     ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_COUNT", "Slurm"),
     ("HQ_TASK_ID", "HQ_TASK_MIN", "HQ_TASK_COUNT", "HyperQueue"),
@@ -45,7 +45,7 @@ impl Shard {
     /// Returns the shard of the array job that environment variables describe.
     ///
     /// # Errors
-    /// Fails if there is no array job, or its number of tasks is unknown.
+    /// Fails if no variable describes an array job, or the number of tasks is unknown.
     pub fn from_environment(variable: &dyn Fn(&str) -> Option<String>) -> Result<Self, StudyError> {
         let refused = |text: String| StudyError::Shard(text);
         let number = |name: &str| -> Result<Option<u64>, StudyError> {

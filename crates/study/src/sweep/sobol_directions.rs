@@ -27,10 +27,10 @@
 // WHETHER IN CONTRACT, STRICT LIABILITY, OR TORT (INCLUDING NEGLIGENCE OR OTHERWISE) ARISING IN ANY WAY OUT OF THE USE OF THIS SOFTWARE,
 // EVEN IF ADVISED OF THE POSSIBILITY OF SUCH DAMAGE.
 
-/// Initial numbers of dimensions 2 to 64; dimension 1 needs none.
+/// Initial direction numbers of dimensions 2 to 64; dimension 1 needs no such numbers.
 ///
-/// Each entry has the primitive polynomial modulo 2, one bit per coefficient with the highest power first. The initial
-/// numbers m_1, m_2, … follow, as many as the degree of the polynomial.
+/// Each entry begins with the primitive polynomial modulo 2, one bit per coefficient with the highest power first. The initial numbers m_1,
+/// m_2, … follow; their count is the degree of the polynomial.
 pub(crate) const INITIAL: [(u32, &[u32]); 63] = [
     (3, &[1]),
     (7, &[1, 3]),

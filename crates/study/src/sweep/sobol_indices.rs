@@ -3,7 +3,7 @@
 /// Number of terms per sample from which the indices of one parameter are computed.
 const TERMS: usize = 6;
 
-/// Indices of one parameter, pure numbers. All are NaN if the result does not vary or there is only one sample.
+/// Sobol indices of one parameter, pure numbers. All indices are NaN if the result does not vary or there is only one sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Index {
     /// First-order index: fraction of the variance that would vanish if this parameter were known.
@@ -16,8 +16,8 @@ pub(crate) struct Index {
     pub(crate) total_error: f64,
 }
 
-/// Accumulates the results f(A), f(B) and f(AB_i) sample by sample. A and B are independent samples, and AB_i is A with
-/// parameter i from B. Memory does not grow with the number of samples.
+/// Accumulates the results f(A), f(B) and f(AB_i) sample by sample. A and B are independent samples, and AB_i is A with parameter i from B.
+/// The memory of the accumulator does not grow with the number of samples.
 ///
 /// V is the variance of f(A) and f(B) together, and results are relative to their mean over all samples:
 ///
@@ -25,16 +25,16 @@ pub(crate) struct Index {
 ///   259-270, table 2 (b);
 /// - total: mean((f(A) - f(AB_i))^2) / (2 V): M. J. W. Jansen, Computer Physics Communications 117 (1999), 35-43.
 ///
-/// The mean is known only after the last sample. Sums are therefore relative to the first result, which preserves
-/// digits, and `finish` corrects them exactly. The indices equal those of SALib.
+/// The mean is known only after the last sample. Sums are therefore relative to the first result, which preserves digits, and `finish`
+/// corrects these sums exactly. The indices equal the results of the program SALib.
 #[derive(Debug, Clone)]
 pub(crate) struct Accumulator {
     /// f(A) of the first sample.
     origin: f64,
     samples: u64,
-    /// Sum of f(A), relative to the origin.
+    /// Sum of the results f(A), relative to the origin.
     sum_a: f64,
-    /// For each parameter, sums of all products of two of its terms.
+    /// For each parameter, sums over all samples of the products of two terms.
     products: Vec<[[f64; TERMS]; TERMS]>,
 }
 
@@ -44,7 +44,7 @@ impl Accumulator {
         Self { origin: 0.0, samples: 0, sum_a: 0.0, products: vec![[[0.0; TERMS]; TERMS]; dimensions] }
     }
 
-    /// Adds one sample: f(A), f(B) and f(AB_i) of each parameter i. All must be finite.
+    /// Adds one sample: f(A), f(B) and f(AB_i) of each parameter i. All values must be finite.
     pub(crate) fn take(&mut self, f_a: f64, f_b: f64, f_ab: &[f64]) {
         if self.samples == 0 {
             self.origin = f_a;
@@ -61,7 +61,7 @@ impl Accumulator {
         }
     }
 
-    /// Returns the indices of each parameter for the samples so far.
+    /// Returns the indices of each parameter from the samples added so far.
     pub(crate) fn finish(&self) -> Vec<Index> {
         let mean = self.mean();
         self.products.iter().map(|products| self.index(products, mean)).collect()
@@ -74,9 +74,9 @@ impl Accumulator {
         (both + mixed) / (self.samples as f64 * (self.products.len() + 2) as f64)
     }
 
-    /// Returns the indices of one parameter. Both are ratios of means M / V.
+    /// Returns both indices of one parameter. Each index is a ratio of means M / V.
     ///
-    /// The contributions m and v of a sample to M and V are linear combinations of its terms. The standard error is
+    /// The contributions m and v of a sample to M and V are linear combinations of the terms of the sample. The standard error is
     /// sqrt(mean((m - index v)^2) / (n - 1)) / V (delta method).
     fn index(&self, products: &[[f64; TERMS]; TERMS], mean: f64) -> Index {
         let n = self.samples as f64;
@@ -98,7 +98,7 @@ impl Accumulator {
     }
 }
 
-/// Returns the sum of squares of a linear combination of terms, from the sums of their products.
+/// Returns the sum over all samples of the squared linear combination of terms, from the sums of products of terms.
 fn quadratic(products: &[[f64; TERMS]; TERMS], weights: &[f64; TERMS]) -> f64 {
     let along = |row: &[f64; TERMS]| row.iter().zip(weights).map(|(sum, weight)| sum * weight).sum::<f64>();
     products.iter().zip(weights).map(|(row, weight)| weight * along(row)).sum()
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    /// Returns the indices of a function on the unit cube from n samples. A has the first k dimensions of a Sobol point, B the others.
+    /// Returns the indices of a function on the unit cube from n samples. A has the first k coordinates of a Sobol point, B the last k.
     fn indices<const K: usize>(n: u64, f: impl Fn(&[f64]) -> f64) -> Vec<Index> {
         let points = Points::unshifted(2 * K, n).unwrap();
         let mut accumulator = Accumulator::new(K);

@@ -13,27 +13,27 @@ pub(crate) const MOST_DIMENSIONS: usize = INITIAL.len() + 1;
 
 /// Sobol sequence: direction numbers and digital shift of each dimension.
 ///
-/// I. M. Sobol', "On the distribution of points in a cube and the approximate evaluation of integrals", USSR
-/// Computational Mathematics and Mathematical Physics 7 (1967), 86-112.
+/// Source: Sobol', "On the distribution of points in a cube and the approximate evaluation of integrals", USSR Computational Mathematics
+/// and Mathematical Physics 7 (1967), 86-112.
 #[derive(Debug, Clone)]
 pub(crate) struct Sobol {
     dimensions: Vec<([u32; BITS], u32)>,
 }
 
 impl Sobol {
-    /// Creates the sequence with one digital shift per dimension, a 32-bit number that is combined with all its coordinates by exclusive
-    /// or. Shifts of 0 give the original sequence. Shifts beyond [`MOST_DIMENSIONS`] are ignored.
+    /// Creates the sequence with one digital shift per dimension, a 32-bit number that is combined with all coordinates by exclusive or.
+    /// Shifts of 0 give the original sequence. Shifts beyond [`MOST_DIMENSIONS`] are ignored.
     pub(crate) fn new(shifts: impl IntoIterator<Item = u32>) -> Self {
         let directions =
             std::iter::once(first()).chain(INITIAL.iter().map(|&(polynomial, m)| later(polynomial, m)));
         Self { dimensions: directions.zip(shifts).collect() }
     }
 
-    /// Writes point `index`, below 2^32. Coordinates are never 0 or 1.
+    /// Writes the coordinates of point `index`, below 2^32. No coordinate is 0 or 1.
     ///
-    /// The order is that of Antonov and Saleev (USSR Computational Mathematics and Mathematical Physics 19, 1979,
-    /// 252-256), as in SciPy. The bits of a point are the exclusive or of the direction numbers for which the Gray code
-    /// index ^ (index / 2) has a 1. A coordinate with bits b is (b + 1/2) / 2^32.
+    /// The order of the points is that of Antonov and Saleev (USSR Computational Mathematics and Mathematical Physics 19, 1979, 252-256),
+    /// as in SciPy. The bits of a point are the exclusive or of the direction numbers for which the Gray code index ^ (index / 2) has a 1.
+    /// A coordinate with bits b is (b + 1/2) / 2^32.
     pub(crate) fn write(&self, index: u64, point: &mut [f64]) {
         let gray = index ^ (index >> 1);
         for ((directions, shift), coordinate) in self.dimensions.iter().zip(point) {
@@ -52,10 +52,10 @@ fn first() -> [u32; BITS] {
     std::array::from_fn(|k| 1 << (BITS - 1 - k))
 }
 
-/// Returns the direction numbers of another dimension in units of 2^-32. The initial ones are v_k = m_k / 2^k.
+/// Returns the direction numbers v_k of a dimension after the first, in units of 2^-32. The initial direction numbers are v_k = m_k / 2^k.
 ///
-/// The others follow from the polynomial x^s + a_1 x^(s-1) + ... + a_(s-1) x + 1, with ^ for the exclusive or: v_k =
-/// a_1 v_(k-1) ^ ... ^ a_(s-1) v_(k-s+1) ^ v_(k-s) ^ v_(k-s) / 2^s.
+/// The further direction numbers follow from the polynomial x^s + a_1 x^(s-1) + ... + a_(s-1) x + 1. With ^ for the exclusive or, v_k = a_1
+/// v_(k-1) ^ ... ^ a_(s-1) v_(k-s+1) ^ v_(k-s) ^ v_(k-s) / 2^s.
 fn later(polynomial: u32, m: &[u32]) -> [u32; BITS] {
     let degree = m.len();
     let mut v = [0; BITS];

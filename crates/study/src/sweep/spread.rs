@@ -36,12 +36,12 @@ pub(crate) enum Spread {
     },
 }
 
-/// Smallest probability between bounds that counts as non-zero. Smaller values lose digits.
+/// Smallest probability between bounds that counts as non-zero. Smaller probabilities lose significant digits.
 const LEAST_PROBABILITY: f64 = 1e-300;
 
 impl Spread {
-    /// Returns the quantile function (inverse cumulative distribution) for the probability `p`, 0 < p < 1. The
-    /// distribution must have no [`fault`](Self::fault).
+    /// Returns the quantile function (inverse cumulative distribution) for the probability `p`, 0 < p < 1. The parameters of the
+    /// distribution must be valid, see [`fault`](Self::fault).
     pub(crate) fn quantile(&self, p: f64) -> f64 {
         match *self {
             Self::Uniform([low, high]) => within(low + p * (high - low), low, high),
@@ -55,7 +55,7 @@ impl Spread {
         }
     }
 
-    /// Returns an error message for invalid parameters of the distribution, or `None`.
+    /// Returns an error message for invalid parameters of the distribution, or `None` for valid parameters.
     pub(crate) fn fault(&self) -> Option<String> {
         match *self {
             Self::Uniform([low, high]) => ordered(low, high),
@@ -71,14 +71,14 @@ impl Spread {
     }
 }
 
-/// Returns the value nearest to `x` between two numbers. Unlike `f64::clamp` it accepts bounds in any order.
+/// Returns the value nearest to `x` between two bounds. Unlike `f64::clamp`, this function accepts bounds in any order.
 fn within(x: f64, low: f64, high: f64) -> f64 {
     x.max(low).min(high)
 }
 
 /// Returns the quantile of the standard normal distribution truncated to a..b: z with Phi(z) = Phi(a) + p P, where P = Phi(b) - Phi(a).
 ///
-/// A positive z is computed from the probability above it, because a probability near 1 would lose digits in the upper tail.
+/// A positive z is computed from the probability above z, because a probability near 1 would lose digits in the upper tail.
 fn truncated(a: f64, b: f64, p: f64) -> f64 {
     let mass = probability(a, b);
     let below = normal::cumulative(a) + p * mass;
@@ -89,7 +89,7 @@ fn truncated(a: f64, b: f64, p: f64) -> f64 {
     }
 }
 
-/// Returns the probability that a standard normal variable lies between a and b. Uses the nearer tail for accuracy.
+/// Returns the probability that a standard normal variable lies between a and b, computed from the nearer tail for accuracy.
 fn probability(a: f64, b: f64) -> f64 {
     if a > 0.0 {
         normal::cumulative(-a) - normal::cumulative(-b)
@@ -98,8 +98,8 @@ fn probability(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Returns the quantile of the triangular distribution. With f = (mode - low) / width, it is low + width sqrt(p f) for
-/// p <= f, otherwise high - width sqrt((1 - p)(1 - f)).
+/// Returns the quantile of the triangular distribution. With f = (mode - low) / width, the quantile is low + width sqrt(p f) for p <= f,
+/// otherwise high - width sqrt((1 - p)(1 - f)).
 fn triangular(low: f64, mode: f64, high: f64, p: f64) -> f64 {
     let width = high - low;
     let rising = (mode - low) / width;

@@ -11,9 +11,9 @@ use stickslip_quantity::Real;
 const PROBABILITIES: [f64; 7] = [0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0];
 /// Number of extreme cases reported at each end.
 const FAR: usize = 5;
-/// Number of reasons of failures that are counted separately.
+/// Maximum number of reasons of failures that are counted separately.
 const REASONS: usize = 20;
-/// Bits by which one pass sorts numbers, and number of passes.
+/// Number of bits that one pass of the radix selection determines, and number of passes.
 const BITS: u32 = 16;
 const READINGS: u32 = 4;
 
@@ -106,7 +106,7 @@ impl Study {
         let wanted = &self.wanted[result];
         let (mut count, mut sum, mut squares) = (0_u64, Sum::default(), Sum::default());
         let mut words = vec![0_u64; wanted.codes.as_ref().map_or(0, Vec::len)];
-        // The two ranks next to each probability.
+        // Search for the two ranks next to each probability.
         let mut search = [Search::default(); 2 * PROBABILITIES.len()];
         // Radix selection: each pass finds the next digit of all values with a histogram per prefix.
         for reading in 0..if wanted.codes.is_some() { 1 } else { READINGS } {
@@ -178,7 +178,7 @@ impl Search {
     }
 }
 
-/// Returns bits that sort like the numbers.
+/// Returns bits whose order as integers equals the order of the numbers.
 fn ordered(value: f64) -> u64 {
     let bits = value.to_bits();
     if bits >> 63 == 1 { !bits } else { bits | (1 << 63) }
@@ -188,7 +188,7 @@ fn value(ordered: u64) -> f64 {
     f64::from_bits(if ordered >> 63 == 1 { ordered & !(1 << 63) } else { !ordered })
 }
 
-/// Returns the digits before that of a pass, and that digit.
+/// Returns the digits before the digit of a pass, and the digit of this pass.
 fn split(ordered: u64, reading: u32) -> (u64, usize) {
     let below = BITS * (READINGS - reading);
     let prefix = ordered.checked_shr(below).unwrap_or(0);

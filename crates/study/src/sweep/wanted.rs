@@ -12,11 +12,11 @@ use stickslip_scenario::{ScenarioError, StudyFile, suggestion};
 const UNSTEADY: &str = "timing";
 /// Part of the summary that needs a search for the periodic orbit.
 const OUTLOOK: &str = "steady_motion";
-/// Results of settled steps that also need this search.
+/// Results of settled steps that also need the search for the periodic orbit.
 const COMPARED: [&str; 2] = ["steps.steady.error_m", "steps.steady.back_step"];
 
-/// Returns whether a number of the summary is computed from rows. Examples are peak loads and maxima of the energy
-/// balance. All others need only instants and events.
+/// Returns whether a number of the summary is computed from rows of the time histories. Examples are peak loads and maxima of the energy
+/// balance. All other numbers need only the end of the run and events.
 pub(crate) fn needs_rows(name: &str) -> bool {
     match name.split('.').next() {
         Some("steps" | "status") => false,
@@ -32,7 +32,7 @@ pub(crate) struct Wanted {
     /// Name in the study file.
     pub(crate) name: String,
     pub(crate) place: Place,
-    /// Words of the codes, by index; `None` for a number.
+    /// Words that the codes represent, by index; `None` for a number.
     pub(crate) codes: Option<Vec<String>>,
 }
 
@@ -49,7 +49,7 @@ impl Wanted {
     /// Finds the result with a given name.
     ///
     /// # Errors
-    /// Fails if there is no such result, or it is not a number or word.
+    /// Fails if the result does not exist, or is neither a number nor a word.
     pub(crate) fn named(
         file: &StudyFile,
         job: &Job,
@@ -87,7 +87,7 @@ impl Wanted {
             Sort::Words(codes) => {
                 Ok(Self { name: name.to_owned(), place: Place::Summary(keys), codes: Some(codes) })
             }
-            Sort::Text => refused("this is a text; expected a number or a keyword", None),
+            Sort::Text => refused("this result is a text; expected a number or a keyword", None),
             Sort::Whole => {
                 let known = known(&here, job, (&keys, &[]));
                 let help = suggestion("", known.iter().map(String::as_str));
@@ -106,12 +106,12 @@ impl Wanted {
         self.is_of_motion() || COMPARED.contains(&self.name.as_str())
     }
 
-    /// Returns whether the result is computed from rows: [`needs_rows`].
+    /// Returns whether the result is computed from rows of the time histories, see [`needs_rows`].
     pub(crate) fn needs_rows(&self) -> bool {
         matches!(self.place, Place::Summary(_)) && !self.is_of_motion() && needs_rows(&self.name)
     }
 
-    /// Returns the value in a summary: a number or the code of a word. Returns NaN if it is missing.
+    /// Returns the value of the result in a summary: a number or the code of a word. Returns NaN if the summary lacks the result.
     pub(crate) fn of(&self, summary: &Value) -> f64 {
         let Place::Summary(keys) = &self.place else { return f64::NAN };
         let step = |here: &'_ Value, key: &String| match here {
@@ -163,7 +163,7 @@ fn parts<'a>(root: &'a Value, schema: &'a Value, found: &mut Vec<&'a Value>) {
     }
 }
 
-/// Returns the schemas at a key or a list index of a schema.
+/// Returns the schemas that a schema has for a key or a list index.
 fn inside<'a>(root: &'a Value, schema: &'a Value, key: &str) -> Vec<&'a Value> {
     let mut all = Vec::new();
     parts(root, schema, &mut all);
@@ -215,7 +215,7 @@ fn sort(root: &Value, schemas: &[&Value]) -> Sort {
     }
 }
 
-/// Returns suggestions: keys at a path of the summary, at its root also the channels.
+/// Returns suggestions for an error message: keys at a path of the summary; at the root of the summary also the channels.
 fn known(here: &[&Value], job: &Job, (path, channels): (&[String], &[Channel])) -> Vec<String> {
     if path == ["contacts"] {
         return job.model.contacts().map(|(name, _)| name.to_owned()).collect();

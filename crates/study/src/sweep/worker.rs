@@ -21,15 +21,15 @@ pub(crate) enum Fault {
 
 /// Runs cases of a study.
 ///
-/// The results of a case depend only on its parameter values. If [`Shortcut`] supports the study, cases run without
-/// reading the scenario again. Otherwise the scenario is read again: to check a value outside the range of earlier
-/// values, and for the error message of a failed case.
+/// The results of a case depend only on its parameter values. If fast runs ([`Shortcut`]) are possible, cases run without reading the
+/// scenario again. Otherwise the scenario is read again, as for values outside the range of earlier values and for the error message of a
+/// failed case.
 pub(crate) struct Worker<'s> {
     study: &'s Study,
     quick: Option<Quick<'s>>,
     watcher: &'s (dyn Watcher + Sync),
     numbers: Vec<f64>,
-    /// Range in which each parameter is known to be valid.
+    /// Range of each parameter within which values are known to be valid.
     known: Vec<[f64; 2]>,
     row: Vec<f64>,
 }
@@ -63,7 +63,7 @@ impl<'s> Worker<'s> {
     /// Appends the results of a case.
     ///
     /// # Errors
-    /// Fails if the case has no results; then nothing is appended.
+    /// Fails if the case has no results; `results` then remains unchanged.
     pub(crate) fn run(&mut self, case: u64, results: &mut Vec<f64>) -> Result<(), Fault> {
         self.study.design.write(case, &mut self.numbers);
         let is_known =
@@ -95,7 +95,7 @@ impl<'s> Worker<'s> {
     }
 }
 
-/// Runs a job like `stickslip run` and appends the requested results. `row` is a buffer.
+/// Runs a scenario like `stickslip run` and appends the requested results to `results`. `row` is a buffer.
 pub(crate) fn record(
     mut job: Job,
     (wanted, watcher): (&[Wanted], &(dyn Watcher + Sync)),
@@ -107,7 +107,7 @@ pub(crate) fn record(
         job.scenario.plan.every = Some(job.scenario.plan.duration);
     }
     if wanted.iter().any(Wanted::is_of_motion) {
-        // The result is requested, so the search has no limit.
+        // The study requests results of the periodic orbit, so the search for it has no limit.
         job.scenario.steady_motion = Some(true);
     }
     if wanted.iter().all(Wanted::is_of_motion) {
@@ -137,7 +137,7 @@ pub(crate) fn record(
             summary.stop().map_or_else(String::new, |(why, _)| format!("stopped: {why}")),
         ));
     }
-    // The summary consists of numbers and strings, for which JSON has no errors.
+    // Serialisation cannot fail, because the summary consists of numbers and strings.
     let is_told = wanted.iter().any(|wanted| matches!(wanted.place, Place::Summary(_)));
     let told = if is_told { serde_json::to_value(&summary).unwrap_or_default() } else { Value::Null };
     outcome.state.write_row(&job.model, row);
@@ -148,7 +148,7 @@ pub(crate) fn record(
     Ok(())
 }
 
-/// Returns a job without plots, optional output files and limit of wall time, which would differ between machines.
+/// Returns a job without plots, optional output files and limit of wall time. A time limit would change results on slow machines.
 pub(crate) fn without_output(mut job: Job) -> Job {
     job.scenario.plots.clear();
     job.scenario.own_plots.clear();

@@ -19,7 +19,7 @@ pub(super) struct Held<'a> {
     pub(super) d: f64,
     /// Reduced normal force M(d), m².
     pub(super) area: f64,
-    /// Displacement u of the contact memory minus that of the bodies, m.
+    /// Displacement u of the contact memory minus the displacement of the bodies, m.
     pub(super) origin: f64,
     /// Velocity below which no reversal is detected, m/s.
     pub(super) rest: f64,
@@ -34,12 +34,12 @@ pub(super) struct Stretch<'s, const D: usize> {
     pub(super) pieces: &'s [Piece],
     /// Times of the last two accepted steps, s.
     pub(super) times: &'s Cell<(f64, f64)>,
-    /// Whether an event lies between them.
+    /// Whether an event lies between the last two accepted steps.
     pub(super) fired: &'s Cell<bool>,
 }
 
 impl<const D: usize> Stretch<'_, D> {
-    /// Returns u (m, in the memory's frame) and u̇ (m/s) of a contact.
+    /// Returns the displacement u (m, relative to the origin of the memory) and the velocity u̇ (m/s) of a contact.
     pub(super) fn motion(&self, held: &Held<'_>, t: f64, y: &SVector<f64, D>) -> (f64, f64) {
         let form = &held.tie.slide;
         let (mut u, mut du) = (form.constant + held.origin, 0.0);
@@ -55,7 +55,7 @@ impl<const D: usize> Stretch<'_, D> {
         (u, du)
     }
 
-    /// Returns two event functions: negative after a reversal, and negative beyond the end of the piece of memory.
+    /// Returns two event functions: one is negative after a reversal, the other beyond the end of the piece of memory.
     fn guards(&self, held: &Held<'_>, t: f64, y: &SVector<f64, D>) -> [f64; 2] {
         let (u, du) = self.motion(held, t, y);
         [held.branch.sense() * du + held.rest, held.branch.margin(held.d, u)]

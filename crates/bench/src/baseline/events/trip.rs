@@ -119,7 +119,7 @@ impl<'a, const D: usize> Trip<'a, D> {
         Ok(self.counts)
     }
 
-    /// Integrates to the first event or to the corner. Returns the next step size, s.
+    /// Integrates to the first event or to the next corner of a waveform. Returns the next step size, s.
     fn cross(
         &mut self,
         corner: f64,

@@ -45,7 +45,7 @@ impl Table {
         let steps = divided.map_or((duration / step).round() + 1.0, f64::round);
         let length = 2 * steps as usize;
         if length > TABLE {
-            return Err(Stop::Failed("its table of driven places would be too long".to_owned()));
+            return Err(Stop::Failed("the table of prescribed positions would be too long".to_owned()));
         }
         let place = |n: usize| track.place(0.5 * n as f64 * step);
         Ok(Self((0..length).map(place).collect()))

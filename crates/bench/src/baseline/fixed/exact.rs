@@ -9,7 +9,7 @@ use pulp::Simd;
 #[derive(Debug, Clone)]
 pub(crate) struct Exact {
     memory: Masing,
-    /// Initial u, m; 1/u_c, 1/m; μF_N, N.
+    /// Initial displacement u, m; then 1/u_c, 1/m, and the friction limit μF_N, N.
     origin: f64,
     scale: f64,
     limit: f64,
@@ -24,7 +24,7 @@ impl Exact {
         }
         let exponent = law.profile().exponent().ok_or("profiles other than power laws")?;
         if tie.start.knots().any(|(_, anchor)| anchor != apex.u) {
-            return Err("contacts that have slid before".to_owned());
+            return Err("contacts with a loading history".to_owned());
         }
         Ok(Self {
             memory: Masing::new((exponent + 1.0) / exponent),

@@ -157,7 +157,7 @@ impl<C: Contact, const F: usize> Walker for Walk<'_, C, F> {
     }
 }
 
-/// A number of steps of a loop.
+/// Loop together with the number of steps to advance.
 struct Go<'w, 't, C, const F: usize>(&'w mut Walk<'t, C, F>, usize);
 
 impl<C: Contact, const F: usize> WithSimd for Go<'_, '_, C, F> {

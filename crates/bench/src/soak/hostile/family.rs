@@ -21,7 +21,7 @@ impl Family {
         self.values.contains(&1.0) && self.values.iter().all(|value| (value - 1.0).abs() <= 0.1 + 1e-12)
     }
 
-    /// Returns the position of a value in a plot: its power of ten, or for values around 1 that of the distance from 1.
+    /// Returns the position of a value in a plot: its power of ten, or for values around 1 the power of ten of the distance from 1.
     pub(super) fn place(&self, value: f64) -> f64 {
         if self.is_fine() {
             let distance = math::log10((value - 1.0).abs()).max(-10.0);

@@ -18,12 +18,12 @@ const ROUNDING: f64 = 1e-12;
 const MOST: f64 = 100.0;
 /// Perturbation of the start whose growth factor is S, in natural lengths.
 const NUDGE: f64 = 1e-9;
-/// Own error above which a fixed-step method cannot judge, in natural lengths.
+/// Own error above which a fixed-step method cannot judge the event stepper, in natural lengths.
 const BLURRED: f64 = 0.1;
 /// Error that is always allowed to fixed-step methods, in natural lengths.
 const FREE: f64 = 1e-6;
 
-/// Judge of cells. It stores the reference runs, which the cells of a scenario share.
+/// Judge of cells, with stored reference runs that the cells of a scenario share.
 pub(super) struct Judge {
     cells: Cells,
     references: Mutex<HashMap<usize, Arc<Option<Ran>>>>,

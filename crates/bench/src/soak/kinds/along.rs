@@ -159,7 +159,7 @@ pub(super) fn stack(sketch: &mut Sketch) {
     sketch.surroundings("slider", mass, stuck, hold);
 }
 
-/// Draws a foot and one to three sliders, each on the one before, or beside it and connected by a spring.
+/// Draws a foot and one to three sliders, each on the previous body, or beside it and connected by a spring.
 pub(super) fn chain(sketch: &mut Sketch) {
     let drive = sketch.follows("drive", sketch.stroke, sketch.period);
     Sketch::add(&mut sketch.bodies, "foot", json!({ "x": drive }));

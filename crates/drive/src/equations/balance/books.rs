@@ -1,4 +1,4 @@
-//! Energy balance of balanced coordinates, and overload of their contacts.
+//! Energy balance of quasi-static coordinates, and overload of their contacts.
 
 use super::super::sum::{Components, Sum, View};
 use super::super::{Equations, Sample};
@@ -7,9 +7,9 @@ use crate::model::Balanced;
 use crate::scene::Axis;
 
 impl Equations<'_> {
-    /// Adds the contributions of balanced coordinates: slopes of positions that are states, and the power of their loads.
+    /// Adds the contributions of quasi-static coordinates: rates of positions that are states, and the power of the loads.
     ///
-    /// The power L q̇ of a load L diverges near gross slip. Therefore the work is L q from the present position, minus the
+    /// The power L q̇ of a load L diverges near gross slip. Therefore the work is computed as L q at the present position minus the
     /// integral of q L̇.
     // Not inlined, as most models have no balanced coordinates.
     #[inline(never)]
@@ -26,7 +26,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Returns the load on a balanced coordinate, N.
+    /// Returns the external load on a quasi-static coordinate, N.
     fn load(&self, balanced: &Balanced, t: f64) -> Sample {
         let mut sum = Sample { value: balanced.own.force, rate: 0.0, acceleration: 0.0 };
         for &(w, a) in &balanced.own.loads {
@@ -37,7 +37,7 @@ impl Equations<'_> {
         sum
     }
 
-    /// Returns Σ L q over balanced coordinates, J: the work of their loads without the integral of q L̇.
+    /// Returns Σ L q over quasi-static coordinates, J: the work of their loads L without the integral of q L̇.
     pub(crate) fn laden(&self, t: f64, y: &impl Fn(usize) -> f64) -> f64 {
         let read = |i: usize| y(i);
         let at = Components { t, y: &read as &dyn Fn(usize) -> f64 };
@@ -54,8 +54,8 @@ impl Equations<'_> {
         self.pull(&balanced.pull, at).value + led.sum::<f64>()
     }
 
-    /// Whether the normal load presses a contact of coordinate `b`, or is zero. A body between floor and ceiling is pressed by
-    /// any load. A load of at most `rounding` (N) is judged by its change.
+    /// Returns whether the normal load on coordinate `b` is zero or presses one of its contacts. Any load presses a body between floor and
+    /// ceiling. A load of at most `rounding` (N) is judged by its change in time.
     pub(crate) fn presses(&self, b: usize, at: &Instant<'_>, rounding: f64) -> bool {
         let balanced = &self.model.balanced[b];
         let Sample { value, rate, acceleration } = self.pull(&balanced.pull, at);
@@ -64,9 +64,9 @@ impl Equations<'_> {
         push == 0.0 || balanced.contacts.iter().any(|(_, a)| a * push > 0.0)
     }
 
-    /// Returns the load on balanced coordinate `b` and the limit of its contacts, N. None if a spring holds it, or a contact still does.
+    /// Returns the load on quasi-static coordinate `b` and the limit of its contacts, N; `None` if a spring or contact holds the load.
     ///
-    /// `gone` says whether a contact has reached its limit.
+    /// The function `gone` returns whether a contact has reached its limit.
     pub(crate) fn given_way(
         &self,
         b: usize,

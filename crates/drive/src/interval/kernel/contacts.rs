@@ -1,4 +1,4 @@
-//! Contacts of a kernel.
+//! Contacts in the precomputed forces of an interval.
 
 use super::length::{Length, Sums, dot, row};
 use crate::contact::{Contact, Mode, Motion, Press};
@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::{Piece, Waveform};
 use stickslip_contact::{Branch, FixedDepthBranch, Profile};
 
-/// Contact at constant depth on one branch.
+/// Contact at constant indentation on one branch of its slip memory, with a closed-form force.
 #[derive(Debug, Clone)]
 pub(super) struct Steady<'a> {
     u: Length<'a>,
@@ -18,7 +18,7 @@ pub(super) struct Steady<'a> {
     profile: &'a Profile,
 }
 
-/// Any other contact.
+/// Contact with variable indentation, damping or growth, whose force has no closed form in u alone.
 #[derive(Debug, Clone)]
 pub(super) struct Moving<'a> {
     index: usize,
@@ -26,18 +26,18 @@ pub(super) struct Moving<'a> {
     u: Length<'a>,
     depth: Depth<'a>,
     law: Law,
-    /// Indices of its friction work, force and elastic energy in the state, if it may grow.
+    /// Indices of the contact's friction work, force and elastic energy in the state, if it may grow in full stick.
     slot: Option<[usize; 3]>,
 }
 
 /// Source of the indentation.
 #[derive(Debug, Clone)]
 enum Depth<'a> {
-    /// Constant d (m) with M(d) (m²).
+    /// Constant indentation d (m) with the reduced normal force M(d) (m²).
     Constant { d: f64, reduced_force: f64 },
     /// Motion of the bodies.
     Coupled(Length<'a>),
-    /// A piece of a waveform.
+    /// Indentation prescribed by the present smooth piece of a waveform.
     Prescribed { waveform: &'a Waveform, piece: Piece },
 }
 
@@ -55,7 +55,7 @@ impl<'a> Steady<'a> {
         Self { u, count: closed.contact.count, branch: closed.branch, profile }
     }
 
-    /// Sets another branch.
+    /// Sets another branch of the slip memory.
     pub(super) fn renew(&mut self, branch: FixedDepthBranch) {
         self.branch = branch;
     }
@@ -97,8 +97,8 @@ impl<'a> Moving<'a> {
         Some(Self { index, contact, u, depth, law, slot })
     }
 
-    /// Adds the forces: normal -count·E\*M(d) along d, if bodies press it; tangential -count·(F_x + βG\*m u̇) along u. The second
-    /// term is the damping of sticking springs.
+    /// Adds the contact forces: normal -count·E\*M(d) along d, if bodies press the contact, and tangential -count·(F_x + βG\*m u̇) along u.
+    /// The term βG\*m u̇ is the damping of sticking springs.
     #[inline(always)]
     pub(super) fn act<const N: usize>(
         &self,
@@ -147,7 +147,7 @@ impl<'a> Moving<'a> {
         sums.apply(&self.u.row, u.driven, -contact.count * force);
     }
 
-    /// Returns force (N) and viscosity (N s/m) of one contact from the memory, and writes the slopes of growth.
+    /// Returns force (N) and viscosity (N s/m) of one contact from its slip memory, and writes the derivatives of its states.
     #[inline(never)]
     fn ask<const N: usize>(
         &self,

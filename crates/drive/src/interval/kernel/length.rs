@@ -1,4 +1,4 @@
-//! Lengths as rows of coefficients, and sums of forces along them.
+//! Displacements between bodies as rows of coefficients, and sums of forces along them.
 
 use super::WIDTH;
 use crate::interval::Followed;
@@ -8,14 +8,14 @@ use crate::state::State;
 /// Coefficients of all free coordinates.
 pub(super) type Row = [f64; WIDTH];
 
-/// A length: Σ coefficient · coordinate + prescribed part.
+/// Displacement between bodies: Σ coefficient · coordinate + prescribed part.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Length<'a> {
     pub(super) row: Row,
     pub(super) followed: Followed<'a>,
 }
 
-/// A length and its rates at one time.
+/// Displacement between bodies and its rates at one time.
 #[derive(Clone, Copy)]
 pub(super) struct Read {
     pub(super) value: f64,
@@ -31,7 +31,7 @@ pub(super) struct Sums<const N: usize> {
     pub(super) damping: f64,
 }
 
-/// Returns the coefficients of a measure by coordinate.
+/// Returns the coefficient of each free coordinate in a linear form.
 pub(super) fn row(terms: &Terms) -> Row {
     let mut row = [0.0; WIDTH];
     for &(i, a) in terms {
@@ -40,7 +40,7 @@ pub(super) fn row(terms: &Terms) -> Row {
     row
 }
 
-/// Returns Σ coefficient · coordinate.
+/// Returns Σ coefficient · coordinate over the free coordinates.
 #[inline(always)]
 pub(super) fn dot<const N: usize>(row: &Row, x: &[f64; N]) -> f64 {
     let mut sum = row[0] * x[0];
@@ -51,7 +51,7 @@ pub(super) fn dot<const N: usize>(row: &Row, x: &[f64; N]) -> f64 {
 }
 
 impl<const N: usize> Sums<N> {
-    /// Adds a force along a length with the prescribed rate `driven`; the input power is -force · driven.
+    /// Adds a force along a displacement with the prescribed rate `driven`; the input power is -force · driven.
     #[inline(always)]
     pub(super) fn apply(&mut self, row: &Row, driven: f64, force: f64) {
         for (sum, a) in self.forces.iter_mut().zip(row) {
@@ -66,7 +66,7 @@ impl<'a> Length<'a> {
         Some(Self { row: row(&measure.free), followed: Followed::of(measure, model, state)? })
     }
 
-    /// Returns length and rates. Large displacements of two bodies cancel first.
+    /// Returns displacement and rates. Large displacements of two bodies are subtracted first, to avoid rounding.
     #[inline(always)]
     pub(super) fn at<const N: usize>(&self, t: f64, (x, v): (&[f64; N], &[f64; N])) -> Read {
         let followed = self.followed.at(t);

@@ -1,4 +1,4 @@
-//! Springs, dampers and actuators of a kernel.
+//! Springs, dampers and actuators in the precomputed forces of an interval.
 
 use super::length::{Length, Sums, dot};
 use crate::interval::Followed;
@@ -26,8 +26,8 @@ impl<'a> Tie<'a> {
         Some(Self { elongation, stroke, stiffness, damping, preload })
     }
 
-    /// Adds k(s - e) + c(ṡ - ė) + preload along e. The input power of the stroke is (k(s - e) + c(ṡ - ė))ṡ; the work of the
-    /// preload is a potential energy. Without velocities there is no damping, and rates are the prescribed ones.
+    /// Adds the force k(s - e) + c(ṡ - ė) + preload along the elongation e. The input power of the stroke s is (k(s - e) + c(ṡ - ė))ṡ; the
+    /// work of the preload is a potential energy. Without velocities there is no damping, and rates are those of prescribed motions.
     #[inline(always)]
     pub(super) fn act<const N: usize>(
         &self,

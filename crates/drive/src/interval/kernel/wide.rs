@@ -1,4 +1,4 @@
-//! Kernel for any number of coordinates, with at most two in each length: chains, and sliders that springs connect.
+//! Precomputed forces for any number of coordinates, at most two per force: chains, and sliders that springs connect.
 
 use crate::equations::Equations;
 use crate::interval::{Closed, Followed};
@@ -6,7 +6,7 @@ use crate::model::{Link, Measure, Model, Stroke, Terms};
 use crate::state::State;
 use stickslip_contact::{FixedDepthBranch, Profile};
 
-/// Forces of an interval on any number of coordinates. Scratch memory, rebuilt with it.
+/// Precomputed forces of an interval on any number of coordinates. Scratch memory, rebuilt after each event.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Wide<'a> {
     steady: Vec<Steady<'a>>,
@@ -14,10 +14,10 @@ pub(super) struct Wide<'a> {
     ties: Vec<Tie<'a>>,
 }
 
-/// Sparse form Σ coefficient · coordinate.
+/// Sparse linear form Σ coefficient · coordinate.
 #[derive(Debug, Clone, Copy)]
 enum Ends {
-    /// One coordinate. A coefficient of 0 means none.
+    /// Form of one coordinate; a coefficient of 0 means no coordinate.
     One(End),
     /// Two coordinates.
     Two([End; 2]),
@@ -30,7 +30,7 @@ struct End {
     arm: f64,
 }
 
-/// Linear form of coordinates along which a force acts.
+/// Linear form of coordinates that gives the direction of a force.
 trait Along {
     /// Returns Σ coefficient · coordinate.
     fn dot(&self, x: &[f64]) -> f64;
@@ -38,7 +38,7 @@ trait Along {
     fn pull(&self, forces: &mut [f64], force: f64);
 }
 
-/// Contact at constant depth on one branch.
+/// Contact at constant indentation on one branch of its slip memory, with a closed-form force.
 #[derive(Debug, Clone)]
 struct Steady<'a> {
     ends: Ends,
@@ -48,17 +48,17 @@ struct Steady<'a> {
     profile: &'a Profile,
 }
 
-/// Spring between free coordinates without a damper; it has no input power and no loss.
+/// Spring between free coordinates, without damper, input power and loss.
 #[derive(Debug, Clone, Copy)]
 struct Spring {
     ends: Ends,
-    /// Σ coefficient · coordinate at which only the preload acts, m.
+    /// Elongation (Σ coefficient · coordinate) at which only the preload acts, m.
     rest: f64,
     stiffness: f64,
     preload: f64,
 }
 
-/// Any other spring, damper or actuator.
+/// Spring with damping or prescribed motion, damper or actuator.
 #[derive(Debug, Clone, Copy)]
 struct Tie<'a> {
     ends: Ends,
@@ -77,7 +77,7 @@ struct Sums<'f> {
 }
 
 impl Ends {
-    /// Returns the form of a row. None for more than two coordinates.
+    /// Returns the sparse form of a list of terms; `None` for more than two coordinates.
     fn of(terms: &Terms) -> Option<Self> {
         let end = |&(at, arm): &(usize, f64)| End { at, arm };
         match &terms[..] {
@@ -125,7 +125,7 @@ macro_rules! along {
 }
 
 impl Sums<'_> {
-    /// Adds a force along a length with the prescribed rate `driven`; the input power is -force · driven.
+    /// Adds a force along a displacement with the prescribed rate `driven`; the input power is -force · driven.
     #[inline(always)]
     fn apply(&mut self, ends: &impl Along, driven: f64, force: f64) {
         ends.pull(self.forces, force);
@@ -158,7 +158,7 @@ impl<'a> Steady<'a> {
 }
 
 impl Spring {
-    /// Returns the spring of a tie. None if the tie has damping or prescribed motion.
+    /// Returns a tie as a plain spring; `None` if the tie has damping or prescribed motion.
     fn of(tie: &Tie<'_>) -> Option<Self> {
         let ([place, 0.0, _], [slack, 0.0, _]) = (tie.followed.line()?, tie.stroke.line()?) else {
             return None;
@@ -187,7 +187,7 @@ impl<'a> Tie<'a> {
         Some(Self { ends: Ends::of(&elongation.free)?, followed, stroke, stiffness, damping, preload })
     }
 
-    /// Adds its forces, see [`ties`](super::ties).
+    /// Adds the forces of the spring, damper or actuator, see [`ties`](super::ties).
     #[inline(always)]
     fn act(&self, t: f64, (x, v): (&[f64], Option<&[f64]>), sums: &mut Sums<'_>) {
         let (followed, stroke) = (self.followed.at(t), self.stroke.at(t));
@@ -211,7 +211,7 @@ impl<'a> Wide<'a> {
         self.ties.reserve(model.links.len());
     }
 
-    /// Returns its memory, empty.
+    /// Returns the allocated memory of this kernel, empty.
     pub(super) fn emptied(self) -> Wide<'static> {
         let (steady, ties) = (super::emptied(self.steady), super::emptied(self.ties));
         Wide { steady, springs: self.springs, ties }
@@ -223,7 +223,7 @@ impl<'a> Wide<'a> {
         self.ties.clear();
     }
 
-    /// Computes the data of all forces. None if an element has no such form.
+    /// Computes the data of all forces; `None` if an element has no precomputed form.
     pub(super) fn lay_out(
         &mut self,
         (model, state): (&'a Model, &State),
@@ -242,7 +242,7 @@ impl<'a> Wide<'a> {
         Some(())
     }
 
-    /// Sets another branch of a contact, given by its index among those of closed form.
+    /// Sets another branch of the slip memory for a contact, given by its index among those with a closed-form force.
     pub(super) fn renew(&mut self, place: usize, branch: FixedDepthBranch) {
         if let Some(steady) = self.steady.get_mut(place) {
             steady.branch = branch;
@@ -262,14 +262,14 @@ impl<'a> Wide<'a> {
         (extra[first], extra[first + 1]) = self.accelerate(eq.model, t, (x, Some(v)), dv);
     }
 
-    /// Writes accelerations and the input power.
+    /// Writes the accelerations of the coordinates and the input power.
     #[inline(never)]
     pub(super) fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(x.len());
         (input[0], _) = self.accelerate(eq.model, t, (x, None), dv);
     }
 
-    /// Computes accelerations; returns input and damping power.
+    /// Computes the accelerations of the coordinates; returns input and damping power.
     #[inline(always)]
     fn accelerate(
         &self,

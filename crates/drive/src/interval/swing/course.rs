@@ -1,4 +1,4 @@
-//! Motion of a closed-form oscillation at a time.
+//! Position and velocity in a closed-form oscillation at a given time.
 
 use super::{PhasePoint, Swing};
 
@@ -6,7 +6,7 @@ use super::{PhasePoint, Swing};
 const NEWTON: usize = 8;
 
 impl Swing<'_> {
-    /// Returns position and velocity at the event.
+    /// Returns position and velocity of the slider at the event that ends the motion.
     pub(crate) fn end(&self) -> PhasePoint {
         let t = self.start.t + self.duration;
         if self.slips.is_empty() {
@@ -18,7 +18,7 @@ impl Swing<'_> {
         self.place((t, self.duration), way, v)
     }
 
-    /// Returns position and velocity at a time before the event.
+    /// Returns position and velocity of the slider at a time before the event.
     pub(crate) fn at(&mut self, t: f64) -> PhasePoint {
         let passed = t - self.start.t;
         if self.slips.is_empty() {
@@ -29,7 +29,7 @@ impl Swing<'_> {
         self.place((t, passed), way, self.velocity(way))
     }
 
-    /// Returns the integration variable after `passed` seconds.
+    /// Returns the integration variable (angle or displacement) after `passed` seconds.
     pub(super) fn clock_at(&mut self, passed: f64) -> f64 {
         let whole = self.to - self.from;
         // Always computed from the start, so that rows do not depend on other rows.
@@ -51,7 +51,7 @@ impl Swing<'_> {
         at
     }
 
-    /// Returns a guess of the integration variable at a fraction of the duration: the cubic with the slopes of both ends.
+    /// Returns a guess of the integration variable at a fraction of the duration: a cubic polynomial with the slopes of both ends.
     fn guess(&self, share: f64) -> f64 {
         let (whole, share) = (self.to - self.from, share.clamp(0.0, 1.0));
         let [first, last] =
@@ -62,21 +62,21 @@ impl Swing<'_> {
         if guess > self.from && guess < self.to { guess } else { self.from + whole * share }
     }
 
-    /// Returns the slider's velocity at q, m/s. If slip is about as fast as at the start, the velocity follows from its change.
-    /// This avoids cancellation against a much faster prescribed motion.
+    /// Returns the slider's velocity at q, m/s. If slip is about as fast as at the start, the velocity is computed from its change, to
+    /// avoid cancellation against a much faster prescribed motion.
     pub(super) fn velocity(&self, way: f64) -> f64 {
         let (first, [last]) = (self.speed(), self.speed_at([way]));
         let gain = if last > 0.5 * first && last < 2.0 * first {
             let [[mean], ..] = self.force([way]);
             2.0 * way * mean / (first + last)
         } else {
-            // Near a turning point that quotient is inaccurate.
+            // Near a turning point the quotient above is inaccurate.
             last - first
         };
         self.start.v + self.sense * gain
     }
 
-    /// Returns the motion in gross slip, a parabola.
+    /// Returns the slider's motion in gross slip, a parabola.
     pub(super) fn freely(&self, t: f64, passed: f64) -> PhasePoint {
         let PhasePoint { x, v, .. } = self.start;
         let gain = self.sense * self.push * passed;
@@ -88,14 +88,14 @@ impl Swing<'_> {
         }
     }
 
-    /// Returns the motion from the displacement. `passed` is the time since the start without the rounding of `t`, as fast
-    /// prescribed motions are sensitive to it.
+    /// Returns the slider's motion from the displacement. `passed` is the time since the start without the rounding of `t`, because fast
+    /// prescribed motions are sensitive to this rounding.
     pub(super) fn place(&self, (t, passed): (f64, f64), way: f64, v: f64) -> PhasePoint {
         PhasePoint { t, x: self.start.x + (self.sense * way - self.drift * passed), v }
     }
 
-    /// Returns the work of the prescribed motion up to a point, J. For a linear motion it is velocity times the missing momentum
-    /// of the slider; for sines it is displacement times the constant contact force.
+    /// Returns the work of the prescribed motion up to a point, J. For a linear motion this is velocity times the missing momentum of the
+    /// slider, for sines displacement times the constant contact force.
     pub(crate) fn work(&self, to: &PhasePoint) -> f64 {
         if let Some(sway) = &self.sway {
             return self.held() * (sway.at(to.t).value - sway.at(self.start.t).value);

@@ -1,13 +1,13 @@
 //! A contact in partial slip that acts on a single slider.
 //!
-//! Its energy is N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ ([`RootSeries`]). With y = ⁿ√h the leading term is y^{2n+1}. Its divided differences over
-//! heights yⁿ are quotients of sums of positive products. With the complete homogeneous polynomials Pₖ(a, y) = Σ aᵏ⁻ⁱyⁱ
+//! The contact's normal energy is N(h) = c h^{2+1/n} Σ aₖ (h/L)ᵏ ([`RootSeries`]). With y = ⁿ√h the leading term is y^{2n+1}. Its divided
+//! differences over heights yⁿ are quotients of sums of positive products. With the complete homogeneous polynomials Pₖ(a, y) = Σ aᵏ⁻ⁱyⁱ
 //!
 //! * f\[a, y\] = P_{2n}(a, y)/P_{n-1}(a, y),
 //! * f\[a, y, c\] = Σ Cₛyˢ/[P_{n-1}(a, y) P_{n-1}(y, c) P_{n-1}(a, c)], Cₛ = Σ (ac)ᴮ P_{A-B-1}(a, c) over n ≤ A ≤ 2n, 0 ≤ B < n
 //!   with A + B = 3n-1-s, 0 ≤ s < 2n.
 //!
-//! A series is multiplied by Leibniz' rule: (fV)\[a, y, c\] = f\[a, y, c\]V(c) + f\[a, y\]V\[y, c\] + f(a)V\[a, y, c\].
+//! A product with a series V obeys Leibniz' rule: (fV)\[a, y, c\] = f\[a, y, c\]V(c) + f\[a, y\]V\[y, c\] + f(a)V\[a, y, c\].
 
 use std::array;
 use stickslip_contact::RootSeries;
@@ -19,21 +19,21 @@ const DEGREES: usize = 8;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartialSlip {
     law: RootSeries,
-    /// αc: the contribution to b is gain·N'.
+    /// Factor αc: the contact contributes gain·N' to the acceleration b.
     gain: f64,
-    /// λ, change of the height of the slip front per displacement.
+    /// Factor λ: change of the slip front's height per displacement.
     pub(super) lean: f64,
-    /// Initial height h, m, and its root.
+    /// Initial height h of the slip front, m, and its n-th root.
     pub(super) height: f64,
     root: f64,
-    /// Roots of h at both turning points. `beyond` is the negative height of a second turning point beyond the centre.
+    /// Roots of the height h at both turning points. `beyond` is the negative height of a second turning point beyond the centre.
     ends: [f64; 2],
     beyond: f64,
-    /// Coefficients of the numerator of K, a polynomial in the root of h.
+    /// Coefficients of the numerator of K, a polynomial in the n-th root of h.
     numerator: [f64; DEGREES],
 }
 
-/// Evaluates an expression with the root of a law as the constant N.
+/// Evaluates an expression with the root exponent n of a force law as the constant N.
 macro_rules! rooted {
     ($law:expr, $N:ident => $call:expr) => {
         match $law.root {
@@ -58,19 +58,19 @@ macro_rules! rooted {
 }
 
 impl PartialSlip {
-    /// Returns a contact; `pull` is the factor of M in b, 1/(m s²).
+    /// Returns the data of a contact; `pull` is the factor of M in the acceleration b, 1/(m s²).
     pub(super) fn new(law: RootSeries, pull: f64, lean: f64, height: f64) -> Self {
         let root = rooted!(law, N => root::<N>(height));
         let gain = pull * law.factor;
         Self { law, gain, lean, height, root, ends: [root; 2], beyond: 0.0, numerator: [0.0; DEGREES] }
     }
 
-    /// Whether its force is smooth up to the centre.
+    /// Returns whether the contact force is smooth up to the contact centre.
     pub(super) fn ends_smoothly(&self) -> bool {
         self.law.root == 1
     }
 
-    /// Sets the turning points, m.
+    /// Sets the turning points of the oscillation, m.
     pub(super) fn swing_between(&mut self, low: f64, high: f64) {
         rooted!(self.law, N => self.take_up::<N>(low, high));
     }
@@ -104,7 +104,7 @@ impl PartialSlip {
         self.ends = ends;
     }
 
-    /// Returns the contact's contributions to b at the start and to the first two derivatives; m/s², 1/s², 1/(m s²).
+    /// Returns the contact's contributions to the acceleration b at the start and to its first two derivatives; m/s², 1/s², 1/(m s²).
     #[inline(always)]
     pub(super) fn start(&self) -> [f64; 3] {
         let [force, stiffness, bend] = rooted!(self.law, N => self.derivatives::<N>(self.height));
@@ -143,7 +143,7 @@ impl PartialSlip {
         rooted!(self.law, N => heights.map(root::<N>).map(|y| self.leading_stiffness::<N>(y)))
     }
 
-    /// Returns the contribution of the leading term, V = 1.
+    /// Returns the contribution of the leading term to K, for V = 1.
     #[inline(always)]
     fn leading_stiffness<const N: usize>(&self, y: f64) -> f64 {
         let [a, c] = self.ends;
@@ -151,7 +151,7 @@ impl PartialSlip {
         numerator / (symmetric(N - 1, a, y) * symmetric(N - 1, y, c))
     }
 
-    /// Returns the contribution of a sphere.
+    /// Returns the contribution of a spherical contact to K.
     fn stiffness_of_series<const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
         let ([a, c], scale) = (self.ends, self.gain * self.lean);
         let (first, last) = (a * a, c * c);
@@ -163,7 +163,7 @@ impl PartialSlip {
         })
     }
 
-    /// Returns the contribution if the turning point lies beyond the centre.
+    /// Returns the contribution to K if the turning point lies beyond the contact centre.
     fn stiffness_beyond<const N: usize, const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
         let (a, roots) = (self.ends[0], heights.map(root::<N>));
         let first = a.powi(N as i32);
@@ -180,7 +180,7 @@ impl PartialSlip {
         array::from_fn(|i| scale * (inner[i] - outer[i]))
     }
 
-    /// Returns the contact's contributions to the mean of b up to q, to b and to its derivative; m/s², m/s², 1/s².
+    /// Returns the contact's contributions to the mean of b up to q, to b and to db/dq; m/s², m/s², 1/s².
     #[inline(always)]
     pub(super) fn pull<const L: usize>(&self, q: [f64; L]) -> [[f64; L]; 3] {
         let heights = q.map(|q| self.height - self.lean * q);
@@ -216,7 +216,7 @@ impl PartialSlip {
     }
 }
 
-/// Returns a height, at least 0.
+/// Returns a height, limited to at least 0.
 #[inline(always)]
 fn above(height: f64) -> f64 {
     if height > 0.0 { height } else { 0.0 }
@@ -233,7 +233,7 @@ fn root<const N: usize>(x: f64) -> f64 {
     }
 }
 
-/// Returns Pₖ(a, b).
+/// Returns the complete homogeneous polynomial Pₖ(a, b) of the given degree k.
 #[inline(always)]
 fn symmetric(degree: usize, a: f64, b: f64) -> f64 {
     let (mut sum, mut power) = (1.0, 1.0);
@@ -266,7 +266,7 @@ mod tests {
         [power(1), power(2), power(3), power(4), sphere]
     }
 
-    /// Returns N, whose divided differences the closed forms are; zero for negative heights.
+    /// Returns the energy N, whose divided differences the closed forms are; zero for negative heights.
     fn energy(law: &RootSeries, h: f64) -> f64 {
         let h = h.max(0.0);
         let sum = law.terms.iter().rev().fold(0.0, |sum, term| sum * (law.curvature * h) + term);

@@ -1,35 +1,35 @@
 //! Gross slip over sinusoidal prescribed motions.
 //!
 //! The contact forces are constant in gross slip, so the slider's motion is a parabola for any prescribed motion. The velocity of slip is
-//! s(t) = ±(v + at + ḟ), with a curvature of at most J, the bound of the sines' third derivative. Hence s stays above s + ṡτ - Jτ²/2,
-//! whose zero is never later than that of s. The iteration from zero to zero misses no zero and converges quadratically.
+//! s(t) = ±(v + at + ḟ). The bound J of the sines' third derivative bounds s̈. Hence s stays above s + ṡτ - Jτ²/2, whose zero is never
+//! later than that of s. An iteration over these zeros misses no zero of s and converges quadratically.
 
 use super::{SMALLEST, Swing};
 use crate::interval::{Closed, Followed, Interval};
 use crate::{Sample, Waveform};
 
-/// Largest number of iterations until slip ends; otherwise the stepper continues.
+/// Largest number of iterations for the end of slip; beyond it the motion is integrated numerically.
 const LOOKS: u32 = 64;
 
 /// Sinusoidal prescribed motion along a coordinate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sway<'a> {
     waveform: &'a Waveform,
-    /// Factor of the waveform along the coordinate.
+    /// Factor by which the waveform moves the coordinate.
     factor: f64,
-    /// Bound of the third derivative, m/s³.
+    /// Upper bound of the third time derivative, m/s³.
     jerk: f64,
 }
 
 impl<'a> Sway<'a> {
-    /// Returns the prescribed motion of a contact. None if it is linear.
+    /// Returns the prescribed motion of a contact; `None` if the motion is linear in time.
     fn of(closed: &Closed<'a>) -> Option<Self> {
         let Followed::Sines { factor, waveform, .. } = closed.followed else { return None };
         let factor = factor / closed.arm;
         Some(Self { waveform, factor, jerk: factor.abs() * waveform.sines_jerk() })
     }
 
-    /// Whether another contact has the same prescribed motion, so that both end slip together.
+    /// Returns whether another contact has the same prescribed motion, so that slip of both contacts ends together.
     fn drags(&self, closed: &Closed<'_>) -> bool {
         match closed.followed {
             Followed::Sines { factor, waveform, .. } => {
@@ -39,7 +39,7 @@ impl<'a> Sway<'a> {
         }
     }
 
-    /// Returns the motion along the coordinate at time t, m, and its derivatives.
+    /// Returns the prescribed motion along the coordinate at time t, m, with its time derivatives.
     #[inline(always)]
     pub(super) fn at(&self, t: f64) -> Sample {
         let Sample { value, rate, acceleration } = self.waveform.sines_at(t);
@@ -49,8 +49,8 @@ impl<'a> Sway<'a> {
 }
 
 impl<'a> Swing<'a> {
-    /// Takes over an interval with sinusoidal prescribed motions. Returns false unless all contacts are in gross slip over the
-    /// same motion.
+    /// Sets up the motion for an interval with sinusoidal prescribed motions. Returns false unless all contacts are in gross slip over the
+    /// same prescribed motion.
     #[inline(never)]
     pub(super) fn begin_swayed(&mut self, interval: &Interval<'a>) -> bool {
         self.slips.clear();
@@ -72,12 +72,12 @@ impl<'a> Swing<'a> {
         true
     }
 
-    /// Returns the force of the contacts against the slider in gross slip, N.
+    /// Returns the constant force of the contacts on the slider in gross slip, N.
     pub(super) fn held(&self) -> f64 {
         self.load - self.sense * self.push / self.mobility
     }
 
-    /// Computes the end of slip. Returns false if it is not found, or if slip is not longer than rounding. `length` is the
+    /// Computes the end of slip. Returns false if no end is found, or if the slip distance does not exceed rounding. `length` is the
     /// natural length, m.
     #[inline(never)]
     pub(super) fn aim_swayed(&mut self, sway: &Sway<'_>, length: f64) -> bool {
@@ -88,7 +88,7 @@ impl<'a> Swing<'a> {
         way.abs() > SMALLEST * length
     }
 
-    /// Returns the duration of slip, s.
+    /// Returns the duration of gross slip, s.
     fn slides_for(&mut self, sway: &Sway<'_>) -> Option<f64> {
         let mut passed = 0.0;
         for _ in 0..LOOKS {
@@ -115,7 +115,7 @@ impl<'a> Swing<'a> {
     }
 }
 
-/// Returns the positive zero of s + ṡτ - Jτ²/2, s.
+/// Returns the positive zero τ of s + ṡτ - Jτ²/2, s.
 fn zero(speed: f64, rise: f64, jerk: f64) -> f64 {
     let root = (rise * rise + 2.0 * jerk * speed).sqrt();
     // Avoids cancellation.

@@ -1,4 +1,4 @@
-//! Time of a closed-form oscillation.
+//! Duration of a closed-form oscillation by numerical quadrature.
 
 use super::{Clock, Swing};
 use crate::quadrature::{self, Lanes};
@@ -7,8 +7,8 @@ use std::array;
 use std::f64::consts::PI;
 
 impl Swing<'_> {
-    /// Returns the time between two values of the integration variable, s, and whether its relative error is below `allowed`.
-    /// `part` is the fraction of the whole range.
+    /// Returns the time between two values of the integration variable, s, and whether its relative error is below `allowed`. `part` is the
+    /// fraction of the whole integration range.
     #[inline(always)]
     pub(super) fn time_between(&mut self, from: f64, to: f64, allowed: f64, part: f64) -> (f64, bool) {
         let (span, mean) = if self.nears {
@@ -34,7 +34,7 @@ impl Swing<'_> {
         (span * mean.value, mean.error <= allowed)
     }
 
-    /// Returns dt/dθ = 1/√(2K), s, or dt/dq = 1/ν, s/m.
+    /// Returns the integrand of time: dt/dθ = 1/√(2K), s, or dt/dq = 1/ν, s/m.
     #[inline(always)]
     pub(super) fn slowness<const N: usize>(&self, at: [f64; N]) -> [f64; N] {
         if self.clock == Clock::Way {
@@ -45,19 +45,19 @@ impl Swing<'_> {
         self.angular(ways)
     }
 
-    /// Returns dt/dθ at q, s.
+    /// Returns the integrand dt/dθ at displacement q, s.
     #[inline(always)]
     fn angular<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
         self.stiffness(ways).map(|stiffness| (0.5 / stiffness).sqrt())
     }
 
-    /// Returns q for a value of the integration variable, m.
+    /// Returns the displacement q for a value of the integration variable, m.
     #[inline(always)]
     pub(super) fn way(&self, at: f64) -> f64 {
         if self.clock == Clock::Way { at } else { self.swung(at) }
     }
 
-    /// Returns q at an angle, m.
+    /// Returns the displacement q at an angle θ, m.
     #[inline(always)]
     fn swung(&self, angle: f64) -> f64 {
         // (1 - cos θ)/2 as a square avoids cancellation near the first turning point.
@@ -65,7 +65,7 @@ impl Swing<'_> {
         self.low + (self.high - self.low) * half * half
     }
 
-    /// Returns ν at q, m/s.
+    /// Returns the velocity of slip ν at displacement q, m/s.
     #[inline(always)]
     pub(super) fn speed_at<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
         if self.clock == Clock::Way {
@@ -78,7 +78,7 @@ impl Swing<'_> {
         array::from_fn(|i| (2.0 * inside(ways[i]) * stiffness[i]).sqrt())
     }
 
-    /// Returns the angle at q, 0 to π.
+    /// Returns the angle θ at displacement q, 0 to π.
     pub(super) fn angle(&self, q: f64) -> f64 {
         2.0 * math::atan2((q - self.low).max(0.0).sqrt(), (self.high - q).max(0.0).sqrt())
     }

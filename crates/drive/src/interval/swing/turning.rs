@@ -1,20 +1,20 @@
 //! Turning points of a closed-form oscillation.
 //!
-//! ν²(q) = ν₀² + 2q b̄(q) has one zero on each side of the motion. Its derivatives 2b and 2b' come from the same evaluation, so
-//! Halley's method of third order costs no more than Newton's.
+//! The squared velocity ν²(q) = ν₀² + 2q b̄(q) has one zero on each side of the motion. The derivatives 2b and 2b' come from the same
+//! evaluation, so Halley's method of third order costs no more than Newton's.
 
 use super::Swing;
 use std::array;
 
 /// Largest number of Halley steps to a turning point.
 const HALLEY: usize = 30;
-/// Bounds of the relative size of the last step: below the first, the remaining error is rounding; above the second, another step is made.
+/// Bounds of the relative size of the last step: below the first, the remaining error is rounding; above the second, one more step is made.
 // In between, the bound is proportional to the cube root of the tolerance.
 pub(super) const EXACT: f64 = 1e-5;
 pub(super) const ROUGH: f64 = 0.02;
 
 impl Swing<'_> {
-    /// Returns the turning points near two guesses, m: zeros of ν₀² + 2∫b by Halley's method.
+    /// Returns the turning points near two guesses, m, as zeros of ν₀² + 2∫b dq by Halley's method.
     #[inline(always)]
     pub(super) fn turning(&mut self, speed: f64, guesses: [f64; 2]) -> Option<[f64; 2]> {
         let mut q = guesses;
@@ -38,7 +38,7 @@ impl Swing<'_> {
     }
 }
 
-/// Improves the guess q of a turning point from a linear b to a parabola by one Halley step. `force` is b at q and `bend` its
+/// Improves the guess q of a turning point, found for a linear b, by one Halley step for a parabolic b. `force` is b at q and `bend` its
 /// derivative. If the parabola has an extremum, or the step is not small, q is returned.
 #[inline(always)]
 pub(super) fn softer(q: f64, force: f64, bend: f64, softening: f64) -> f64 {

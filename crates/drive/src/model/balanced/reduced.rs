@@ -1,8 +1,8 @@
-//! Elimination of balanced bodies without a contact.
+//! Elimination of quasi-static coordinates without a contact.
 //!
-//! Springs connect balanced coordinates: K q = P - F with a symmetric K. s are the coordinates with contacts, l the others. Then
-//! q_l = K_ll⁻¹(P_l - K_ls q_s), and the reduced stiffness is K_ss - K_sl K_ll⁻¹ K_ls. It must be diagonal, as two coupled
-//! coordinates with contacts are not supported.
+//! Springs connect quasi-static coordinates: K q = P - F with a symmetric K. Let s be the coordinates with contacts and l the others. Then
+//! q_l = K_ll⁻¹(P_l - K_ls q_s), and the reduced stiffness is K_ss - K_sl K_ll⁻¹ K_ls. The reduced stiffness must be diagonal, as two
+//! coupled coordinates with contacts are not supported.
 
 use super::{Balanced, Pull, is_balanced, measure_of, split};
 use crate::contact::Contact;
@@ -14,9 +14,9 @@ use nalgebra::DMatrix;
 /// Relative coupling stiffness that counts as rounding of the elimination.
 const NONE: f64 = 1e-12;
 
-/// Determines contacts, springs and reduced loads of each balanced coordinate. `first` is the signal of the first.
+/// Determines contacts, springs and reduced loads of each quasi-static coordinate. `first` is the signal index of the first coordinate.
 ///
-/// Fails if nothing holds a coordinate, or if two coordinates with contacts are coupled.
+/// Fails if no contact or spring holds a coordinate, or if two coordinates with contacts are coupled.
 pub(in crate::model) fn assign(
     contacts: &[Contact],
     stiffness: &DMatrix<f64>,
@@ -70,7 +70,7 @@ pub(in crate::model) fn assign(
     Ok(())
 }
 
-/// Assigns contacts to balanced coordinates. Fails for a contact between two balanced bodies.
+/// Assigns contacts to quasi-static coordinates. Fails for a contact between two quasi-static bodies.
 fn join(contacts: &[Contact], first: usize, all: &mut [Balanced]) -> Result<(), SceneError> {
     for (c, contact) in contacts.iter().enumerate() {
         for axis in [Axis::X, Axis::Z] {
@@ -86,13 +86,13 @@ fn join(contacts: &[Contact], first: usize, all: &mut [Balanced]) -> Result<(), 
     Ok(())
 }
 
-/// Returns the stiffness after elimination, 0 if it is rounding.
-// Otherwise rounding would act as a weak spring beyond the limit of a contact.
+/// Returns the stiffness after elimination, or 0 if the value is rounding.
+// Otherwise rounding would act as a weak spring beyond the friction limit of a contact.
 fn rounded(left: f64, whole: f64) -> f64 {
     if left > NONE * whole { left } else { 0.0 }
 }
 
-/// Returns the stiffness matrix of balanced coordinates, N/m; the remaining forces of springs are added to their loads.
+/// Returns the stiffness matrix of quasi-static coordinates, N/m, and adds the remaining forces of springs to the loads.
 pub(in crate::model) fn springs(links: &[Link], (first, all): (usize, &mut [Balanced])) -> DMatrix<f64> {
     let mut stiffness = DMatrix::zeros(all.len(), all.len());
     for link in links.iter().filter(|link| is_balanced(&link.elongation, first)) {

@@ -1,19 +1,19 @@
 //! Contacts that keep to one branch of their force law over several steps; used by the `frames` stepper.
 //!
-//! On a branch one slip edge uses up one piece of the slip memory, and the force law is smooth. At a constant indentation, one memory
+//! On a branch, slip passes along one linear piece of the slip memory, and the force law is smooth. At a constant indentation, one memory
 //! piece lasts for many steps. One straight path to the end of the piece is equivalent to many short ones. The slip memory is therefore
-//! committed only where a branch ends: where its memory piece is used up or the motion reverses.
+//! committed only where a branch ends: at the end of its memory piece or at a reversal of the motion.
 //!
-//! There the step is cut, at the time that the cubic through both ends of the step gives. It is cut to no less than one
-//! eighth of a full step, which bounds the work. A later branch end within that eighth causes an error like a kink.
+//! At a branch end the step is cut, at the time given by the cubic interpolant of the step. A cut step has at least one eighth of the full
+//! length, which bounds the work. A further branch end within that eighth causes an error like a kink.
 //!
-//! Where a damped contact has used up its memory piece, the step is cut without this lower limit. The damping force of
-//! the springs that stick can be many times the friction limit, and it vanishes with them. The number of these cuts is
-//! bounded by the number of stored reversals.
+//! Where a damped contact reaches the end of its memory piece, the step is cut without this lower limit. The damping force of sticking
+//! springs can be many times the friction limit, and it vanishes when these springs slip. The number of such cuts is bounded by the number
+//! of stored reversals.
 //!
-//! A contact under a varying normal force keeps to no branch. It follows the full force law, with one straight path per
-//! step. Its steps are cut where it touches or separates and where a slip edge starts or stops. Without the cut, the
-//! slip memory would store a reversal with an error of second order in the step.
+//! A contact under a varying normal force uses no branch. Such a contact follows the full force law, with one straight path per step. Steps
+//! are cut where such a contact touches or separates, and where a slip edge starts or stops. Without these cuts, the slip memory would
+//! store a reversal with an error of second order in the step.
 
 use super::Chords;
 use super::way::{Way, end_of, kink};
@@ -32,7 +32,7 @@ pub(super) const GROWING_KNOTS: usize = 1024;
 
 /// Largest distance of two branch ends that count as simultaneous, as a fraction of the step.
 const TOGETHER: f64 = 1e-6;
-/// Largest remaining length of a memory piece that counts as used up, in u_c.
+/// Largest remaining length of a memory piece at which its end counts as reached, in u_c.
 const NEAR: f64 = 1e-6;
 
 /// Smallest ratio βu̇/u_c at which steps are adapted to vanishing contact damping.
@@ -59,7 +59,7 @@ pub(in crate::run) struct Branches<'a> {
     pub(super) current: bool,
     /// Contacts whose branches end with the step, and the senses of their next branches.
     pub(super) ended: Vec<(usize, f64)>,
-    /// Contacts whose branches end where the step was cut, and the senses of their next branches. Rounding does not matter.
+    /// Contacts whose branches end at the cut of the step, even if rounding contradicts, and the senses of their next branches.
     due: Vec<(usize, f64)>,
     /// Largest displacement per step while contact damping vanishes under a varying normal force, in u_c.
     part: f64,
@@ -73,7 +73,7 @@ impl<'a> Branches<'a> {
         Self { interval: Interval::of(model), current: false, ended: room(), due: room(), part }
     }
 
-    /// Returns the remaining length of the memory piece of contact `c`, m. It agrees with [`Chords::glides`] to the last bit.
+    /// Returns the remaining length of the memory piece of contact `c`, m. [`Chords::glides`] uses the same value, bit by bit.
     fn left(&self, c: usize, branch: &Branch, motion: &Motion) -> f64 {
         match self.interval.closed_form(c) {
             Some(closed) => closed.margin(motion.u),
@@ -81,7 +81,7 @@ impl<'a> Branches<'a> {
         }
     }
 
-    /// Whether all contacts of the model keep to branches with closed-form forces.
+    /// Whether every contact of the model is on a branch with a closed-form force.
     #[inline]
     fn holds_all(&self, model: &Model) -> bool {
         self.current && self.interval.closed.len() == model.contacts.len()
@@ -89,7 +89,7 @@ impl<'a> Branches<'a> {
 }
 
 impl<'a> Chords<'a> {
-    /// Computes the constants of the interval after a branch has changed.
+    /// Computes the constants of the time interval after a branch has changed.
     ///
     /// The contact motions at the start of the step are computed with the formulas used at its end. A continued run
     /// thus gives the same bits.
@@ -157,8 +157,8 @@ impl<'a> Chords<'a> {
 
     /// Returns the first branch end in the step to time t with components y, s.
     ///
-    /// For a contact under a varying normal force, a kink of its force law counts as a branch end. `None` leaves
-    /// earlier results unchanged.
+    /// For a contact under a varying normal force, a kink of its force law counts as a branch end. If no branch ends, the branch ends
+    /// stored before stay unchanged.
     pub(in crate::run) fn first_end(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
         self.branches.as_ref()?;
         self.move_contacts(state, t, y);
@@ -187,7 +187,7 @@ impl<'a> Chords<'a> {
 
     /// Returns how contact damping decreases at the branch end found last.
     ///
-    /// `None` means that no damped contact has used up its memory piece there.
+    /// `None` means that no damped contact reaches the end of its memory piece at that branch end.
     pub(in crate::run) fn weakens(&self, state: &State) -> Option<Weakening> {
         let due = self.branches.iter().flat_map(|branches| &branches.due);
         let damped = due.filter(|(c, _)| self.model.contacts[*c].is_damped());
@@ -203,7 +203,7 @@ impl<'a> Chords<'a> {
 
     /// Whether significant damping of contact `c` vanishes at the end of its memory piece.
     ///
-    /// For weak damping, evenly distributed stages are more accurate.
+    /// For weak damping, Runge–Kutta stages that are evenly distributed over the step are more accurate.
     fn gives_way(&self, c: usize, branch: &Branch) -> bool {
         let contact = &self.model.contacts[c];
         let resisted = contact.interface.damping() * self.motions[c].du.abs();
@@ -212,7 +212,7 @@ impl<'a> Chords<'a> {
 
     /// Returns the longest time step that resolves vanishing contact damping under a varying normal force, s.
     ///
-    /// No branch predicts that moment. The value is ∞ if no contact needs this limit.
+    /// Under a varying normal force no branch predicts that time. The value is ∞ if no contact needs this limit.
     pub(in crate::run) fn longest(&self, state: &State) -> f64 {
         let Some(Branches { part, .. }) = self.branches.as_ref().filter(|_| self.is_damped) else {
             return f64::INFINITY;
@@ -293,7 +293,7 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Sets the next branch of every contact whose branch has ended. Its slip memory must be at the current state.
+    /// Sets the next branch of every contact whose branch has ended. Slip memories must be committed to the current state.
     #[inline]
     pub(super) fn branch(&mut self, state: &mut State) {
         let Some(branches) = &mut self.branches else { return };
@@ -372,7 +372,7 @@ impl<'a> Chords<'a> {
 
     /// Commits every slip memory to the current state.
     ///
-    /// The commit cannot fail, because the branch has already passed along this path.
+    /// The commit cannot fail, because the force law on the branch already covers this path.
     pub(in crate::run) fn settle(&mut self, state: &mut State) {
         if self.branches.is_none() {
             return;
@@ -390,8 +390,8 @@ impl<'a> Chords<'a> {
 
 /// Returns the branch of a contact at constant indentation for the direction `sense`, otherwise the full force law.
 ///
-/// `left` is the remaining length of the previous memory piece, m. A remaining length below [`NEAR`] is an error of the
-/// cubic and counts as used up.
+/// `left` is the remaining length of the previous memory piece, m. A remaining length below [`NEAR`] is an error of the cubic, and the end
+/// counts as reached.
 fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left): (f64, f64)) -> Mode {
     match memory.branching() {
         Some(branching) if keeps_to_branches(contact, motion) => {

@@ -13,8 +13,8 @@ use stickslip_contact::Segment;
 impl Chords<'_> {
     /// Sets every waveform to its piece at the middle of the step from the current time to `end`.
     ///
-    /// Returns whether any piece has changed. A step that ends at a corner thus sees one side of it only. At either end
-    /// of the step, rounding could select the wrong side.
+    /// Returns whether any piece has changed. A step that ends at a corner thus uses one side of the corner only. At either end of the
+    /// step, rounding could select the wrong side.
     ///
     /// Blocks then choose their laws again. Runs that use this function have no waveforms with jumps.
     pub(in crate::run) fn enter(&self, state: &mut State, end: f64) -> bool {

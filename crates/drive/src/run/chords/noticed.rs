@@ -11,14 +11,14 @@ use stickslip_contact::{ContactState, Memory};
 impl Chords<'_> {
     /// Changes the laws of blocks whose event functions are negative after the step, or that choose a new law themselves.
     ///
-    /// Each block handles one event function per step, the first negative one. Others follow after later steps.
+    /// Each block handles one event function per step, the first negative one. Further negative event functions follow after later steps.
     pub(super) fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {
         for (k, wired) in self.model.blocks.iter().enumerate() {
             let eq = Equations::on(self.model, state, self.layout, self.crossing);
             let t = state.t;
             let guards = wired.block().guards(&state.blocks[k].law);
             let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
-            // The block's memory is committed before: changes that it already contains cause no event.
+            // The block's memory has been committed before: changes that it already contains cause no event.
             let fallen = guards.iter().find(down).map(|guard| eq.block_next(k, *guard, state));
             let Some((kind, law)) = fallen.or_else(|| eq.block_turn(k, state)) else { continue };
             state.blocks[k].law = law;
@@ -30,7 +30,7 @@ impl Chords<'_> {
         }
     }
 
-    /// Returns the slip state of contact `c` after the last step, at motion `at`. Its slip memory may lag behind.
+    /// Returns the slip state of contact `c` after the last step, at motion `at`. The slip memory may not yet contain the step.
     pub(super) fn standing(&self, c: usize, memory: &Memory, at: Option<&Motion>) -> ContactState {
         let lags = self.branches.is_some();
         let at = at.filter(|_| lags).map_or(memory.apex(), Motion::apex);
@@ -55,7 +55,7 @@ impl Chords<'_> {
 
     /// Reports the events that follow from the contacts before and after the step.
     ///
-    /// The state does not count them, so that it does not depend on the record.
+    /// The event counts of the state do not include these events, so that the state does not depend on the record.
     pub(super) fn notice(&mut self, state: &State, record: &mut dyn Record) {
         for (c, motion) in self.motions.iter().enumerate() {
             let now = self.standing(c, &state.memories[c], Some(motion));

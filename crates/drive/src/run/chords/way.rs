@@ -1,9 +1,9 @@
-//! Path of a contact within a step: the end of its branch and kinks of its force law.
+//! Path of a contact within a step, with the end of the force-law branch and kinks of the force law.
 
 use crate::contact::Motion;
 use stickslip_contact::Branch;
 
-/// Fraction at the start of a step in which kinks are ignored: the previous step was cut there.
+/// Fraction of the step, from its start, in which kinks are ignored, because the previous step was cut there.
 const PASSED: f64 = 0.125;
 
 /// Returns where the branch of a contact ends, as a fraction of the step, and the sense of the next branch.
@@ -79,7 +79,7 @@ impl Way<'_> {
         [c / q, q / a].into_iter().find(|s| (0.0..=1.0).contains(s))
     }
 
-    /// Returns where the memory piece of a branch is used up, as a fraction of the step.
+    /// Returns where slip reaches the end of the branch's memory piece, as a fraction of the step.
     fn reaches(&self, branch: &Branch) -> f64 {
         let margin = |u: f64| branch.margin(self.to.d, u);
         let (first, last) = (margin(self.from.u), margin(self.to.u));

@@ -1,12 +1,12 @@
-//! Prediction of the next event, and end and stages of the next step.
+//! Prediction of the next event; choice of the end and the stages of the next step.
 //!
-//! An event wastes the part of the step beyond it. A step that ends well before the event costs another step. The first
-//! event is therefore predicted from the motion at the start of the step. A wrong prediction costs evaluations, but no
-//! accuracy, because the event is located on the dense output.
+//! The part of a step beyond an event is wasted. A step that ends well before the event costs another step. The first event is therefore
+//! predicted from the motion at the start of the step. A wrong prediction costs evaluations, but no accuracy, because the event is located
+//! on the dense output.
 //!
 //! Where a contact touches, separates or begins gross slip, its force varies with the power 3/2 of the time to that singular moment.
-//! Examples are Hertz' force and F_x = μF_N[1 - (1 - u/u_c)^{3/2}]. Even steps across a singular moment have the order 1.5 to 2. A graded
-//! step begins or ends there, with stages concentrated near it, and keeps its order.
+//! Examples are Hertz' force and F_x = μF_N[1 - (1 - u/u_c)^{3/2}]. Steps with even stages then have only the order 1.5 to 2. A graded step
+//! begins or ends at the singular moment, with stages concentrated near it, and keeps its order.
 //!
 //! Forces with an integer power, as for a cone or a flat punch, need no graded steps.
 
@@ -18,44 +18,44 @@ use crate::quadrature;
 use crate::state::State;
 use stickslip_stepper::{Attempt, Grade};
 
-/// Plan of the next step.
+/// End, distribution of stages and limits of the next step.
 #[derive(Clone, Copy)]
 pub(super) struct Aim {
     /// End of the step, s.
     pub(super) target: f64,
     /// Distribution of the stages: even, or concentrated near the start or the end.
     pub(super) grade: Grade,
-    /// Longest length that the step may get, s.
+    /// Largest length that the step may have, s.
     pub(super) most: f64,
     /// Time to the next singular moment, s; ∞ without one.
     pub(super) singular: f64,
-    /// Contact and event function with an expected singular zero at the end of the step.
+    /// Contact and event function whose singular zero is expected at the end of the step.
     pub(super) closes: Option<(usize, Guard)>,
 }
 
-/// Expected end of a contact law.
+/// Predicted end of the current law of a contact.
 #[derive(Clone, Copy)]
 struct Expected {
-    /// Time from the start of the step, s; positive.
+    /// Time from the start of the step to the event, s; positive.
     left: f64,
     contact: usize,
     /// Event function that is expected to cross zero.
     guard: Guard,
 }
 
-/// Factor by which a step passes the expected end of a law, so that the end lies inside the step.
+/// Ratio of the step length to the predicted time of an event, so that the event lies inside the step.
 const OVERSTEP: f64 = 1.05;
-/// Largest rate of time along a graded step, relative to an even one. The longest graded step is shorter by that factor.
+/// Largest rate of time within a graded step, relative to an even one. The longest graded step is shorter by this factor.
 const FASTEST: f64 = 2.0;
 /// Smallest tolerance at which a graded step may be as long as an even one.
 const LOOSE: f64 = 3e-4;
-/// Shortest step with few stages, as a fraction of the longest one.
+/// Shortest step of the order-5 method with few stages, as a fraction of its maximum step.
 const LEAST: f64 = 0.05;
-/// Smallest ratio of a repeated or following step to a step.
+/// Smallest ratio of the length of a repeated or following step to the present length.
 pub(super) const SHRINK: f64 = 0.2;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Plans the next step: as long as step control permits, but not far beyond the first expected event.
+    /// Chooses the next step: as long as step control permits, but not far beyond the first expected event.
     ///
     /// * While accelerations are constant, only corners and the longest time step limit the step.
     /// * If no singular event is expected, the step is even and ends at most 5 % beyond the first event.
@@ -116,7 +116,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Aim { target: state.t + to, grade, most, singular: f64::INFINITY, closes }
     }
 
-    /// Returns a step with few stages if an event or corner will end the step soon. A longer step would be wasted.
+    /// Returns a step with few stages (order 5) if an event or corner will end the step soon. A longer step would be wasted.
     fn brief(&self, state: &State, (step, left): (f64, f64), corner: f64) -> Option<Aim> {
         let short = self.motion.pace.short;
         // A step that was rejected with few stages is repeated with all stages.
@@ -135,7 +135,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (ends <= short.min(step)).then(|| brief(ends.max(LEAST * short).min(step)))
     }
 
-    /// Whether a law ends with a force of power 3/2 in the time left, and enough of the law remains to matter.
+    /// Whether a law ends with a force of power 3/2 in the time left, and the rest of the law is long enough to matter.
     ///
     /// The remaining length of the law is compared with the natural depth before separation, and with u_c before gross slip. Below
     /// tolerance^{2/3} of that scale the singular part is within the tolerance, and an even step is sufficient.
@@ -169,7 +169,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Whether a contact has only just touched, with a force that begins with a power of d between 1 and 2.
     ///
-    /// Just touched means an indentation of at most [`closeness`](super::motion::Pace::closeness) times the step times ḋ.
+    /// A contact has just touched if its indentation is at most [`closeness`](super::motion::Pace::closeness) times the step times ḋ.
     fn is_touched(&self, state: &State, c: usize, step: f64) -> bool {
         let contact = &self.setting.model.contacts[c];
         let motion = self.watch.from[c].motion;
@@ -180,10 +180,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             && contact.is_steep()
     }
 
-    /// Returns the angular frequency of the oscillation that a touch with the speed ḋ starts, 1/s.
+    /// Returns the angular frequency of the oscillation that begins with a touch at the speed ḋ, 1/s.
     ///
-    /// It is ḋ/L with the depth L at which gF_N(L)L = ḋ², with g as in [`Self::leaves`]. In units of L and L/ḋ all
-    /// touches of one power law are the same motion. The result is 0 for contacts that no body presses.
+    /// The frequency is ḋ/L with the depth L at which gF_N(L)L = ḋ², with g as in [`Self::leaves`]. In units of L and L/ḋ all touches of
+    /// one power law are the same motion. The result is 0 for contacts that no body presses.
     fn touching_swing(&self, c: usize) -> f64 {
         let contact = &self.setting.model.contacts[c];
         let speed = self.watch.from[c].motion.dd;
@@ -201,7 +201,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if rate.is_finite() { rate } else { 0.0 }
     }
 
-    /// Returns when the first memory piece is expected to be used up, so that the step is not much longer.
+    /// Returns when slip is expected to reach the end of the first memory piece, so that the step is not much longer.
     ///
     /// `None` if no slip edge reaches the end of its piece with the current motion.
     fn piece_end(&self, state: &State) -> Option<Expected> {
@@ -214,7 +214,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Some(Expected { left, contact, guard: Guard::Piece })
     }
 
-    /// Returns when the first contact is expected to separate, if within two steps.
+    /// Returns when the first contact is expected to separate, if this happens within two steps.
     ///
     /// Applies to contacts that are pressed by the motion of bodies.
     fn lift_off(&self, state: &State, step: f64) -> Option<Expected> {
@@ -231,7 +231,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         first
     }
 
-    /// Returns the time to the separation of a contact as if only its own normal force changed, s.
+    /// Returns the time to the separation of a contact, s, calculated as if only the normal force of this contact changed.
     ///
     /// With d̈ = r - gF_N(d), the squared speed is ν²(x) = ḋ² - 2r(d-x) + 2g[E(d) - E(x)], and the time is ∫₀ᵈ dx/ν. The gain g is the
     /// mobility along d times the number of contacts, and r is the acceleration by other forces. E = E\*N is the normal energy (J).
@@ -271,7 +271,7 @@ pub(super) fn reach(tolerance: f64) -> f64 {
     if tolerance < LOOSE { FASTEST.recip() } else { 1.0 }
 }
 
-/// Returns the longest graded step from a touch, in radians of the oscillation that the touch starts.
+/// Returns the longest graded step after a touch, in radians of the oscillation that begins with the touch.
 ///
 /// The error of that step is a tenth of the tolerance. For d̈ = -dᵖ, 1 < p < 2, at unit speed, a step of θ rad has an
 /// error of at most 8e-4 θ^{6.5}. Beyond half a radian the embedded estimate is unreliable.
@@ -281,7 +281,7 @@ pub(super) fn start(tolerance: f64) -> f64 {
 
 /// Returns the end of the next step: exactly the corner, or a time that leaves no short remainder before it.
 ///
-/// A step that would leave less than its own length covers half of the time to the corner. Two equal steps follow.
+/// If the step would leave less than its own length before the corner, two equal steps cover the time to the corner.
 fn end(t: f64, step: f64, corner: f64) -> f64 {
     let left = corner - t;
     // The sum t + step could differ from the corner by rounding.

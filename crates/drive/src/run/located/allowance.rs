@@ -1,8 +1,8 @@
 //! Allowed error of each component of a step.
 //!
-//! The error of a step is measured in these units; 1 is just allowed. An allowed error is the tolerance times a natural
-//! scale, so that one tolerance suits every model. It is never below the rounding error of the compared quantities,
-//! because no shorter step reduces that. The values are set at events and rejections, not at every step.
+//! The error of a step is measured in units of the allowed error. An allowed error is the tolerance times a natural scale, so that one
+//! tolerance suits every model. An allowed error is never below the rounding error of the compared quantities, which no shorter step
+//! reduces. Allowed errors are set at events and rejections, not at every step.
 
 use super::shift::FAR;
 use crate::Model;
@@ -22,15 +22,15 @@ const KINKS: f64 = 1e-3;
 const BENDS: f64 = 1e-2;
 /// Smallest factor on the tolerance where a free body rests on spring rows under constant normal forces.
 ///
-/// Their springs slip one by one and end no step. The factor is 1 down to [`ROWS_FROM`] and decreases with the tolerance below.
+/// Springs slip one by one without ending a step. The factor is 1 down to [`ROWS_FROM`] and decreases with the tolerance below.
 const ROWS: f64 = 1e-2;
 /// Tolerance down to which the error estimates resolve the kinks of spring rows under constant normal forces.
 const ROWS_FROM: f64 = 1e-7;
 /// Smallest tolerance that rounding permits.
 const FINEST: f64 = 1e-13;
-/// Time over which rounding errors of fast strokes and followers are allowed, in 1/ω of the fastest oscillation.
+/// Time over which rounding errors of fast strokes and prescribed motions are allowed, in 1/ω of the fastest oscillation.
 const RUSH: f64 = 0.1;
-/// Tolerance below which rounding errors of fast followers are allowed for contacts, too.
+/// Tolerance below which rounding errors of fast prescribed motions are allowed for contacts, too.
 const RUSH_BELOW: f64 = 1e-8;
 
 /// Friction coefficient below which u_c may be smaller than the rounding of positions.
@@ -38,7 +38,7 @@ const FAINT: f64 = 1e-4;
 
 /// Finite difference for derivatives, in natural scales.
 ///
-/// It is far below a tenth of u_c, where contact forces bend, and far above rounding.
+/// The difference is far below a tenth of u_c, where contact forces become nonlinear, and far above rounding.
 const DIFFERENCE: f64 = 1e-7;
 
 /// Allowed absolute errors of a step.
@@ -51,9 +51,9 @@ pub(super) struct Allowance {
     pub(super) strict: f64,
     /// Natural scale of work, J.
     work: f64,
-    /// Relative rounding error of works in a model without friction, strokes and followers; 0 otherwise.
+    /// Relative rounding error of energies in a model without friction, strokes and prescribed motions; 0 otherwise.
     rounding: f64,
-    /// Fraction of the kinetic energy that is rounding error of works in a model with friction; 0 otherwise.
+    /// Fraction of the kinetic energy that is rounding error of energies in a model with friction; 0 otherwise.
     moving: f64,
     /// Rounding error of the work done by waveforms, J.
     least: f64,
@@ -64,8 +64,8 @@ pub(super) struct Allowance {
 impl Allowance {
     /// Creates the allowed errors that do not change in a run, such as those of forces of growing contacts.
     ///
-    /// Works have allowed errors, too, so that the energy balance closes within the tolerance. `tolerance` is relative
-    /// to the natural scales u_c, u_cω, μF_N and μF_N u_c.
+    /// Energies have allowed errors, too, so that the energy balance is satisfied within the tolerance. `tolerance` is relative to the
+    /// natural scales u_c, u_cω, μF_N and μF_N u_c.
     pub(super) fn new(model: &Model, tolerance: f64, mut scale: Vec<f64>) -> Self {
         let part = model.contacts.iter().map(|contact| part(model, contact, tolerance)).fold(1.0, f64::min);
         let strict = if part < 1.0 { (part * tolerance).max(f64::min(tolerance, FINEST)) } else { tolerance };
@@ -111,7 +111,7 @@ impl Allowance {
 
     /// Sets the allowed errors at a state: the tolerance times natural scales, but at least rounding errors.
     ///
-    /// With the spacing ε of doubles at 1, the power P of the followers and works W where only loads move bodies:
+    /// With the spacing ε of doubles at 1, the power P of prescribed motions and work W where only loads move bodies:
     ///
     /// * position: tolerance·length + 8ε|x|, at least ε|v|·length/speed;
     /// * velocity: tolerance·speed + 8ε|x|·speed/length + 8ε|v|;
@@ -157,9 +157,9 @@ impl Allowance {
 }
 
 impl Allowance {
-    /// Sets the allowed errors of works of contacts that only followers move, relative to their own scale of work.
+    /// Sets the allowed errors of the energies of contacts with prescribed motions only, relative to their own scale of work.
     ///
-    /// Larger works of other contacts do not matter, because no free coordinate connects them.
+    /// Larger energies of other contacts do not matter, because no free coordinate connects them.
     fn allow_walked(&mut self, model: &Model, state: &State) {
         let layout = model.layout();
         for contact in model.contacts.iter().filter(|contact| contact.is_walked()) {
@@ -178,7 +178,7 @@ impl Allowance {
     }
 }
 
-/// Returns the factor on the tolerance that a contact requires.
+/// Returns the factor by which a contact reduces the tolerance.
 fn part(model: &Model, contact: &Contact, tolerance: f64) -> f64 {
     let is_row = !contact.engine.branches();
     let profile = contact.interface.profile();
@@ -203,13 +203,13 @@ pub(super) fn differences(model: &Model) -> Vec<f64> {
     natural.allowed.scale[..coupled].iter().map(|scale| unit * scale).collect()
 }
 
-/// Raises the allowed errors to rounding errors of time in fast strokes and followers, and of large positions.
+/// Raises the allowed errors to rounding errors of time in fast strokes and prescribed motions, and of large positions.
 ///
-/// The time of a stage is rounded to εt. The force of a link changes at the rate F' = kṡ + cs̈, that of a contact at
-/// mω²u̇ of its follower. Accelerations thus have errors of εtF'/m and powers of εtF'ṡ. Allowed is their effect over
-/// the time [`RUSH`]/ω, with ω of the fastest oscillation.
+/// The time of a stage is rounded to εt. The force of a spring or actuator changes at the rate F' = kṡ + cs̈, the force of a contact at
+/// mω²u̇ of its prescribed motion. Accelerations thus have errors of εtF'/m and powers of εtF'ṡ. The allowed error is their effect over the
+/// time [`RUSH`]/ω, with ω of the fastest oscillation.
 ///
-/// Large positions are those of bodies that start far from the origin, and of stack ends that have moved far.
+/// Large positions occur for bodies that start far from the origin, and for actuator ends that have moved far.
 fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool) {
     let layout = model.layout();
     let equations = Equations::on(model, state, layout, false);
@@ -250,11 +250,11 @@ fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool
     scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
 }
 
-/// Raises the allowed errors to rounding errors of the positions that contacts and links compare.
+/// Raises the allowed errors to rounding errors of the positions that determine contact displacements and elongations.
 ///
-/// With very small friction, u_c may be only a few rounding errors of a position. The rounding error εx of a position
-/// causes the acceleration error kεx/m = ω²εx, and within 1/ω the velocity error ωεx. The force error of a stack causes
-/// an error of its power in the same time.
+/// With very small friction, u_c may be only a few rounding errors of a position. The rounding error εx of a position causes the
+/// acceleration error kεx/m = ω²εx, and within 1/ω the velocity error ωεx. The force error of an actuator causes an error of its power in
+/// the same time.
 fn allow_places(model: &Model, state: &State, scale: &mut [f64]) {
     let layout = model.layout();
     let equations = Equations::on(model, state, layout, false);
@@ -281,9 +281,9 @@ fn allow_places(model: &Model, state: &State, scale: &mut [f64]) {
     scale[layout.dimension()..].iter_mut().for_each(|scale| *scale = scale.max(work));
 }
 
-/// Returns the increase of the power of strokes in a step h, W: kṡ²h. Rounding of a stage's time causes such an error.
+/// Returns the increase of the power of strokes in a step h, W: kṡ²h. Rounding of the time of a stage causes such an error.
 ///
-/// h is at most 1/ω of the fastest oscillation.
+/// The step h is at most 1/ω of the fastest oscillation.
 fn surge(model: &Model, state: &State) -> f64 {
     if model.links.is_empty() {
         return 0.0;
@@ -295,16 +295,16 @@ fn surge(model: &Model, state: &State) -> f64 {
     if step > 0.0 { model.links.iter().map(rise).sum::<f64>() * step } else { 0.0 }
 }
 
-/// Returns an upper bound of the power that followers can put into the contacts, W.
+/// Returns an upper bound of the power that prescribed motions can put into the contacts, W.
 ///
-/// It is μF_N times the speed of the followers. Profiles with kinks add the damping force of all springs in stick. The
-/// bound is computed at corners only, because the speed is constant on a straight piece.
+/// The bound is μF_N times the prescribed speed. Profiles with kinks add the damping force of all sticking springs. The bound is computed
+/// at corners only, because the speed is constant on a linear piece.
 pub(super) fn follower_power(model: &Model, state: &State) -> f64 {
     let equations = Equations::on(model, state, model.layout(), false);
     model.contacts.iter().map(|contact| power(contact, &equations, state)).sum()
 }
 
-/// Returns an upper bound of the power that followers can put into one contact, W.
+/// Returns an upper bound of the power that prescribed motions can put into one contact, W.
 fn power(contact: &Contact, equations: &Equations<'_>, state: &State) -> f64 {
     let at = Components { t: state.t, y: |i: usize| state.y[i] };
     let rate = |w: usize| equations.signal(w, &at).rate;

@@ -1,4 +1,4 @@
-//! Quasi-static coordinates (without mass) in a run: loss of balance, and positions as states.
+//! Quasi-static coordinates (without mass) in a run: loss of equilibrium, and positions as states.
 
 use super::Located;
 use crate::RunError;
@@ -12,7 +12,7 @@ use stickslip_stepper::Attempt;
 const PARTING: f64 = 1e-9;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Fails if a quasi-static coordinate has no balance any more: all its contacts slip or are open.
+    /// Fails if a quasi-static coordinate has no equilibrium any more: all its contacts slip or are open.
     pub(super) fn check_balance(&self, state: &State) -> Result<(), RunError> {
         let (model, equations) = (self.setting.model, self.setting.plain(state));
         let at = Instant { t: state.t, y: &|i| state.y[i] };
@@ -31,11 +31,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Returns the time up to which the full force law has a balance, s: `to`, or the last earlier time.
+    /// Returns the latest time up to `to` (s) at which every quasi-static coordinate has an equilibrium under the full force law.
     ///
-    /// Beyond that time no equilibrium position exists, and no contact law shows it. Loads and holding forces depend on time only.
+    /// Later no equilibrium position exists, and no contact law shows it. Loads and holding forces depend on time only.
     ///
-    /// Fails if that time is at most `least` (s) ahead, because positions then change faster than any step resolves.
+    /// Fails if the result is at most `least` (s) ahead, because positions then change faster than any step resolves.
     pub(super) fn until_overloaded(&self, state: &State, to: f64, least: f64) -> Result<f64, RunError> {
         let (model, equations, from) = (self.setting.model, self.setting.plain(state), state.t);
         let over = |t: f64| equations.overloaded(t, &|i| state.y[i]);
@@ -68,7 +68,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Makes the position of a quasi-static coordinate a state when its first contact begins to grow in full stick.
     ///
-    /// The state begins at the current position.
+    /// The initial value of this state is the current position.
     pub(super) fn carry(&self, state: &mut State, c: usize) {
         let model = self.setting.model;
         if state.modes[c] != Mode::Grow {

@@ -1,7 +1,7 @@
 //! Start of an interval between two events.
 //!
-//! After most events only contacts with a zero crossing have another law, and the interval is updated for them. After a
-//! corner, a moved origin or a block event the interval is built again.
+//! After most events, only contacts with a zero crossing have a new law, and the interval is updated for these contacts. After a corner, a
+//! moved origin or a block event the interval is built again.
 
 use super::Located;
 use super::watch::Fallen;
@@ -11,7 +11,7 @@ use crate::state::{Grip, State};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Builds the interval until the next event: closed forms of contacts, integration method, and whether anything sticks.
+    /// Builds the interval until the next event: closed forms of contacts, integration method, and whether any contact sticks.
     pub(super) fn begin_interval(&mut self, state: &mut State) {
         self.interval.begin(self.setting.model, state);
         self.count_interval(state);
@@ -32,7 +32,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         renews
     }
 
-    /// Counts the interval, ends any leap and determines whether anything sticks.
+    /// Counts the interval, ends any closed-form step and determines whether any contact sticks.
     fn count_interval(&mut self, state: &mut State) {
         self.takeoff = None;
         self.interval.count(&mut state.tally);

@@ -1,4 +1,4 @@
-//! Next laws of blocks at an event, and where rates may jump.
+//! Next laws of blocks at an event, and rates that may jump there.
 
 use super::Located;
 use super::watch::Fallen;
@@ -13,7 +13,7 @@ use stickslip_stepper::Attempt;
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Changes the law of a block after a zero crossing.
     ///
-    /// Does nothing if a jump at the same time has set a law without that event function.
+    /// Does nothing if a jump at the same time has set a law to which that event function does not belong.
     pub(super) fn handle_block(
         &mut self,
         state: &mut State,
@@ -33,7 +33,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Lets blocks choose their laws again where the rates of their inputs may have jumped.
     ///
     /// Blocks are handled in order, because each reads only earlier ones. A block with a zero crossing keeps its new law, because its rate
-    /// is zero within rounding. At a corner, or if an input has a new law, its rate has changed, and it chooses again.
+    /// is zero within rounding. At a corner, or if an input has a new law, the rate has changed, and the block chooses again.
     pub(super) fn turn_blocks(
         &mut self,
         state: &mut State,

@@ -1,7 +1,7 @@
 //! Step that reaches the end of a run.
 //!
-//! Steps are not cut at the end. The last step is attempted in full length, and output up to the end comes from its dense output. Output
-//! therefore does not depend on the end. A run that stops before that step continues as if it had no end.
+//! Steps are not cut at the end of the run. The last step is attempted in full length, and its dense output gives the output up to the end.
+//! Output therefore does not depend on the end. A run that stops before the last step continues as if it had no end.
 
 use super::Located;
 use crate::equations::Equations;
@@ -20,7 +20,7 @@ pub(super) struct Bookmark {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Saves the data before an attempt that may reach the end; `None` if no attempt can.
+    /// Saves the data before an attempt that may reach the end of the run; `None` if no attempt can reach it.
     #[inline(always)]
     pub(super) fn bookmark(&self) -> Option<Bookmark> {
         (self.horizon.end < f64::INFINITY && !self.horizon.takes_last).then(|| self.mark())
@@ -37,7 +37,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Undoes an attempt.
+    /// Restores the data saved before an attempt, which undoes the attempt.
     pub(super) fn turn_back(&mut self, before: Option<Bookmark>) {
         let Some(before) = before else { return };
         // The attempt will be repeated and counted then.

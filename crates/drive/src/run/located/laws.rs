@@ -1,13 +1,13 @@
 //! Next laws of contacts at an event. For blocks see [`block_laws`](super::block_laws).
 //!
-//! Contact laws change here and, at jumps, in [`turning`](super::turning). After a zero crossing, the next law follows
-//! from the event function and the motion.
+//! Contact laws change here and, at jumps, in [`turning`](super::turning). After a zero crossing, the next law follows from the event
+//! function that has crossed zero and from the motion.
 //!
-//! At a corner velocities jump. Every contact that the corner moves then gets its law from the new velocities, or from
-//! accelerations where velocities vanish. This includes contacts with a zero crossing at the corner.
+//! At a corner velocities jump. Every contact that the corner moves then gets its law from the new velocities, or from accelerations where
+//! velocities vanish. Contacts with a zero crossing at the corner are included.
 //!
-//! Without contact damping, forces are continuous at every change of law. Accelerations then do not depend on the next
-//! laws, and each contact is decided separately.
+//! Without contact damping, forces are continuous at every change of law. Accelerations then do not depend on the next laws, and the law of
+//! each contact is chosen separately.
 
 use super::Located;
 use super::watch::Fallen;
@@ -21,13 +21,13 @@ use crate::state::State;
 use stickslip_contact::Course;
 use stickslip_stepper::{Attempt, System};
 
-/// Time over which ḋ is differentiated, as a fraction of the waveform's duration or of the contact's 1/ω.
+/// Time step of the finite difference of ḋ, as a fraction of the waveform's duration or of the contact's 1/ω.
 const BEND_AHEAD: f64 = 1e-5;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Sets the next law of every component with a zero crossing, and after a corner of all contacts that it moves.
+    /// Sets the next law of every component with a zero crossing; after a corner, also of all contacts that the corner moves.
     ///
-    /// Components are handled in the order in which their zero crossings were found. Fails if events accumulate or reach their limit.
+    /// Components are handled in the order in which their zero crossings were found. Fails if events accumulate or exceed their limit.
     pub(super) fn handle_fallen(
         &mut self,
         state: &mut State,
@@ -141,13 +141,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (kind, course)
     }
 
-    /// Whether both slip edges of a contact are at rest: |u̇| and κ|ḋ| are within the nearness of [`Guard::Drag`].
+    /// Whether both slip edges of a contact are at rest: |u̇| and κ|ḋ| are within the near-zero band of [`Guard::Drag`].
     fn stands(&self, contact: &Contact, motion: &Motion) -> bool {
         let (_, near) = Guard::Drag.bands(contact, self.setting.tolerance, motion.u);
         motion.du.abs() <= near && contact.interface.stick_slope() * motion.dd.abs() <= near
     }
 
-    /// Chooses the law of a contact again after a corner, where velocities jump.
+    /// Chooses the law of a contact anew after a corner, where velocities jump.
     ///
     /// Reports an event only if the kind of law or the sliding direction changes.
     fn turn(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
@@ -174,7 +174,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
     }
 
-    /// Sets the law of a contact from its velocities, or at rest from its accelerations.
+    /// Sets the law of a contact from its velocities. For a contact at rest, accelerations determine the law.
     pub(super) fn decide(&mut self, state: &mut State, c: usize) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
@@ -193,8 +193,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Returns the direction in (d, u) in which a contact at rest begins to move.
     ///
-    /// It is the direction of the acceleration. If the acceleration is only rounding, the remaining velocity decides,
-    /// or else the present sense. Accelerations below 1e-12 of u_cω² count as rounding.
+    /// The result is the direction of the acceleration. If the acceleration is only rounding, the remaining velocity gives the direction,
+    /// or else the present sense of slip. Accelerations below 1e-12 of u_cω² count as rounding.
     fn push(&mut self, state: &State, c: usize, motion: &Motion) -> (f64, f64) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
@@ -230,10 +230,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         (rate(state.t + ahead) - rate(state.t)) / ahead
     }
 
-    /// Sets the law of a contact, and the force and energy at which growth in full stick begins.
+    /// Sets the law of a contact. For growth in full stick, also sets the initial force and energy.
     ///
-    /// `slack` (m) is the remaining length of a memory piece that counts as used up. The step length before gross slip
-    /// is stored and used again afterwards, because steps in gross slip become too long for the next law.
+    /// `slack` (m) is the remaining length of a memory piece that counts as ended. The step length before gross slip is stored and used
+    /// again afterwards, because steps in gross slip become too long for the next law.
     pub(super) fn set_law(&self, state: &mut State, c: usize, (course, at): (Course, &Motion), slack: f64) {
         let contact = &self.setting.model.contacts[c];
         // A constant load keeps the contact closed; without motion it begins forward.
@@ -264,7 +264,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Counts an event and reports it to the record.
     ///
-    /// The event counts without a record, too, because output does not change the state.
+    /// Events are counted without a record, too, because output does not change the state.
     #[inline(always)]
     pub(super) fn note(
         &mut self,

@@ -1,9 +1,9 @@
-//! Leaps: intervals with a closed-form solution, passed without the integrator.
+//! Closed-form steps ("leaps") to the next event, without the integrator, where the motion has a closed form.
 //!
-//! The motion between two events is known for a single slider if all its contacts have closed-form forces and waveforms
-//! are straight. It is a parabola in gross slip, otherwise one quadrature of time ([`Swing`](crate::interval::Swing)).
+//! The motion of a single slider between two events has a closed form if all its contacts have closed-form forces and waveforms are linear.
+//! In gross slip the motion is a parabola, otherwise one quadrature gives the time ([`Swing`](crate::interval::Swing)).
 //!
-//! Rows, snapshots and period ends are computed from the start of the leap, independently of each other.
+//! Rows, snapshots and period ends are computed from the start of the closed-form step, independently of each other.
 
 use super::Located;
 use super::watch::Fallen;
@@ -17,16 +17,16 @@ use crate::run::horizon::Progress;
 use crate::state::{Books, State, beyond};
 use stickslip_stepper::Attempt;
 
-/// Largest relative velocity at which a turning point is so near that the cubic is accurate.
+/// Largest velocity, relative to the ends of the arc, at which a point counts as a turning point.
 const SLOW: f64 = 0.05;
 /// Largest number of secant steps to a turning point.
 const SECANTS: u32 = 8;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Advances to the next event, corner or goal in one leap.
+    /// Advances to the next event, corner or goal in one closed-form step.
     ///
-    /// Returns `None` and does nothing if the interval has no closed-form solution. A goal before the event interrupts the leap, and the
-    /// next call continues it. Fails if values are not finite, a contact refuses its path, or a limit is reached.
+    /// Returns `None` and does nothing if the interval has no closed-form solution. A goal before the event interrupts the step, and the
+    /// next call continues it. Fails if values are not finite, if a contact cannot follow its path, or if a limit is reached.
     pub(super) fn leap(
         &mut self,
         state: &mut State,
@@ -79,7 +79,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.step(state, record).map(|()| Some(Progress::Made))
     }
 
-    /// Cancels the leap, because it would reach the end of the run.
+    /// Cancels the closed-form step, because the step would reach the end of the run.
     fn stay(&mut self, begins: bool) -> Progress {
         if begins {
             // A later call leaps as if this one had not been made.
@@ -88,10 +88,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Progress::Short
     }
 
-    /// Begins a leap and finds its event.
+    /// Begins a closed-form step and finds the event at its end.
     ///
-    /// Returns false if the model has several free coordinates, the interval no closed form, or the search no result.
-    /// The interval is then integrated in steps.
+    /// Returns false if the model has several free coordinates, if the interval has no closed form, or if the search finds no event. The
+    /// interval is then integrated in steps.
     fn take_off(&mut self, state: &State) -> bool {
         // Without a closed form, there is none until the next event.
         self.interval.traits.asked = true;
@@ -106,9 +106,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         leaps
     }
 
-    /// Returns the end of the leap: a period end with which the step length of the drive is constant, otherwise `to`.
+    /// Returns the end of the closed-form step: `to`, or an earlier period end at which the step length of the drive has become steady.
     ///
-    /// A constant step length ends the run there.
+    /// A steady step length ends the run at that period end.
     #[inline(never)]
     fn leap_over_steps(&mut self, state: &State, to: PhasePoint) -> PhasePoint {
         while let Some(due) = self.horizon.steps.due(to.t) {
@@ -121,9 +121,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         to
     }
 
-    /// Writes the rows and snapshots that are due during the leap.
+    /// Writes the rows and snapshots that are due within the closed-form step.
     ///
-    /// The state is only read. Scratch of the output is reused, so that nothing is allocated.
+    /// The state is only read. Scratch memory of the output is reused, so that nothing is allocated.
     #[inline(never)]
     fn write_on_the_way(&mut self, state: &State, to: PhasePoint, record: &mut dyn Record) {
         let eq = self.setting.plain(state);
@@ -147,7 +147,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.components = y;
     }
 
-    /// Reads the extent of the watched body during the leap and writes sample rows.
+    /// Determines the extent of the watched body in the closed-form step and writes sample rows.
     fn pass_leap(
         &mut self,
         eq: &Equations<'_>,
@@ -167,7 +167,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.marks.end_step();
     }
 
-    /// Reads the extent over a part of the leap.
+    /// Determines the extent of the watched body over a part of the closed-form step.
     ///
     /// Between velocities of opposite sign there is one turning point. Between velocities of the same sign there are
     /// two or none, because the sliding velocity rises and falls at most once.
@@ -209,7 +209,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         a
     }
 
-    /// Writes the components at time `due` of the leap into `y`.
+    /// Writes the components at time `due` of the closed-form step into `y`.
     ///
     /// Only position (m), velocity (m/s) and input work (J) differ from the state.
     fn fill(&mut self, state: &State, due: f64, to: PhasePoint, y: &mut [f64]) {
@@ -219,12 +219,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         y[self.setting.layout.input()] = self.input_at(&place);
     }
 
-    /// Returns the input work at a point of the leap, J. It counts from the start of the leap, even across interruptions.
+    /// Returns the input work at a point of the closed-form step, J. It counts from the start of the step, even across interruptions.
     fn input_at(&self, place: &PhasePoint) -> f64 {
         self.takeoff.unwrap_or(0.0) + self.swing.work(place)
     }
 
-    /// Moves the state to a point of the leap; the slip memories stay behind. If the interval `ends`, counts one step.
+    /// Moves the state to a point of the closed-form step without committing memories. If the interval `ends`, counts one step.
     ///
     /// Fails if position or velocity is not finite.
     fn land(&mut self, state: &mut State, to: PhasePoint, ends: bool) -> Result<(), RunError> {
@@ -244,9 +244,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Commits the contacts with a zero crossing, at a corner all contacts.
+    /// Commits the slip memories of contacts with a zero crossing, at a corner of all contacts.
     ///
-    /// For the others, one straight path to their own next event is equivalent to many. Fails if a contact refuses its path.
+    /// For the other contacts, one straight path to their own next event is equivalent to many. Fails if a contact cannot follow its path.
     fn remember(&mut self, state: &mut State, is_corner: bool) -> Result<(), RunError> {
         if is_corner || self.watch.fired.len() == self.interval.closed.len() {
             self.trace_closed(state);
@@ -257,9 +257,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.ledger.commit((self.setting.model, self.setting.layout), state.t, state)
     }
 
-    /// Collects the zero crossings that end the leap: all reversals, or all memory pieces that are used up.
+    /// Collects the zero crossings that end the closed-form step: all reversals, or the ends of all memory pieces reached there.
     ///
-    /// A piece counts as used up if its remaining length exceeds the smallest one by at most the nearness.
+    /// The end of a piece counts as reached if its remaining length exceeds the smallest one by at most the near-zero band.
     fn collect_reached(&mut self, state: &State) {
         let steady = self.interval.closed.iter();
         // With one slider and one follower, all contacts stop sliding together.

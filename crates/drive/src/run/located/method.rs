@@ -13,12 +13,12 @@ use stickslip_stepper::{
     DOP853_ORDER, DormandPrince, NYSTROM_ORDER, One, Paired, RADAU_ORDER, Radau, StepLimits,
 };
 
-/// Smallest factor by which a rejected implicit step is shortened at once.
+/// Smallest factor by which a single rejection shortens an implicit step.
 const SHRINK: f64 = 0.1;
 
-/// Run with located events, by the integrator for its intervals without a closed-form solution.
+/// Run with located events, for each integrator of intervals without a closed-form solution.
 ///
-/// Where no force depends on a velocity, a Runge–Kutta–Nyström method saves a third of the evaluations.
+/// If no force depends on a velocity, a Runge–Kutta–Nyström method needs a third fewer evaluations.
 pub(in crate::run) enum LocatedRun<'a> {
     /// Runge–Kutta–Nyström with a single free coordinate.
     One(Box<Located<'a, Paired<One>>>),
@@ -72,7 +72,7 @@ impl<'a> LocatedRun<'a> {
     }
 }
 
-/// Storage for runs with located events, by integrator. Consecutive runs of the same shape share it.
+/// Storage for runs with located events, by integrator. Consecutive runs with the same layout reuse it.
 #[derive(Default)]
 pub(in crate::run) struct Workspace {
     one: Option<Room<Paired<One>>>,
@@ -113,7 +113,7 @@ impl Workspace {
     }
 }
 
-/// Calls one method of the run inside any variant.
+/// Calls one method on the run, whatever its integrator.
 macro_rules! each {
     ($located:expr, $run:ident => $call:expr) => {
         match $located {
@@ -126,7 +126,7 @@ macro_rules! each {
 }
 
 impl LocatedRun<'_> {
-    /// Starts or continues a run at a state.
+    /// Starts or continues the run from a state.
     pub(in crate::run) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
         each!(self, run => run.set_out(state, opening, record));
     }

@@ -1,7 +1,7 @@
 //! Integrator of a run with located events, and its step length.
 //!
-//! [`Motion`] attempts steps and limits their length. The module [`step`](super::step) accepts or rejects them, and
-//! [`aim`](super::aim) predicts the next event. [`Pace`] holds what one step passes to the next; an event resets it.
+//! [`Motion`] attempts steps and limits their length. The module [`step`](super::step) accepts or rejects them, and [`aim`](super::aim)
+//! predicts the next event. [`Pace`] contains the data that one step passes to the next; an event resets these data.
 
 use super::Setting;
 use super::aim::{Aim, SHRINK, reach, start};
@@ -15,7 +15,7 @@ use crate::record;
 use crate::state::{Ahead, Gait, Grip, State, Whereabouts};
 use stickslip_stepper::{Attempt, End, Grade, Target};
 
-/// Largest velocity that counts as rest, relative to the natural velocity; several hundred rounding errors.
+/// Largest velocity that counts as rest, relative to the natural velocity. The value corresponds to several hundred rounding errors.
 const REST: f64 = 1e-13;
 /// Largest product of step length and rate at rest. Longer steps amplify rounding errors, because the method has large coefficients.
 const REST_REACH: f64 = 1.0;
@@ -32,25 +32,25 @@ pub(super) struct Motion<A> {
     pub(super) whereabouts: Whereabouts,
     pub(super) allowance: Allowance,
     pub(super) pace: Pace,
-    /// Whether a motion may decay within a step. The dense output is then far less accurate than the end of the step.
+    /// Whether a motion may decay within a step, so that the dense output is far less accurate than the end of the step.
     pub(super) fades: bool,
-    /// Scratch for the energy balance of a step, if the force law has kinks that end no step.
+    /// Scratch memory for the energy balance of a step, if the force law has kinks that end no step.
     books: Option<Vec<f64>>,
 }
 
 /// Limits of the step length.
 pub(super) struct Pace {
-    /// Longest time step, s: a quarter of the shortest wave of any waveform; ∞ without waves.
+    /// Maximum time step, s: a quarter of the shortest wave of any waveform; ∞ without waves.
     pub(super) longest: f64,
-    /// Longest time step at the start of a run without waves, s.
+    /// Maximum time step at the start of a run without waves, s.
     first: f64,
-    /// Longest time step with few stages, taken shortly before an expected event, s; 0 if the method has none.
+    /// Maximum time step with few stages (order 5), taken shortly before an expected event, s; 0 if the method has no such step.
     pub(super) short: f64,
     /// Longest graded step, as a fraction of an even one.
     pub(super) reach: f64,
-    /// Longest graded step from a touch, in radians of the oscillation that the touch starts.
+    /// Longest graded step after a touch, in radians of the oscillation that begins with the touch.
     pub(super) start: f64,
-    /// Largest distance from a singular moment at which a step may end, as a fraction of the step.
+    /// Largest distance between a singular moment and the end of the step there, as a fraction of the step.
     pub(super) closeness: f64,
     /// Smallest remaining length of a law at which its singular end requires a graded step, in natural lengths.
     pub(super) resolved: f64,
@@ -59,7 +59,7 @@ pub(super) struct Pace {
 }
 
 impl<A> Motion<A> {
-    /// Creates an integrator that has no start yet.
+    /// Creates an integrator without a starting point.
     pub(super) fn new(setting: &Setting<'_>, solver: A, scale: Vec<f64>) -> Self {
         let (model, tolerance) = (setting.model, setting.tolerance);
         let pace = Pace {
@@ -86,10 +86,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         self.solver.start(eq, state.t, &state.y);
     }
 
-    /// Attempts a step and returns its error in units of the allowed error; 1 is just allowed.
+    /// Attempts a step and returns its error in units of the allowed error.
     ///
-    /// A step to a singular moment is repeated up to [`CORRECTIONS`] times until it ends close enough. Each repetition is a Newton step of
-    /// the event function at the end, and all stages are evaluated again. `aim` is set to the end of the last attempt.
+    /// A step to a singular moment is repeated up to [`CORRECTIONS`] times until it ends close enough. Each repetition is a Newton step for
+    /// the event function at the end, with all stages evaluated again. `aim` is set to the end of the last attempt.
     #[inline(always)]
     pub(super) fn attempt(&mut self, eq: &Equations<'_>, t: f64, aim: &mut Aim, corner: f64) -> f64 {
         let target = Target { end: aim.target, grade: aim.grade };
@@ -118,7 +118,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         error
     }
 
-    /// Returns the error of a step from time t to a zero of an event function. `told` is the integrator's estimate.
+    /// Returns the error of a step from time t to a zero of an event function. `told` is the error estimate of the integrator.
     fn judged_at_end(
         &self,
         eq: &Equations<'_>,
@@ -141,7 +141,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
 
     /// Returns the larger of the integrator's error and the error of the energy balance, for an acceptable step.
     ///
-    /// Across a kink of the force law, the embedded estimate can be too small by orders of magnitude.
+    /// If a step contains a kink of the force law, the embedded estimate can be too small by orders of magnitude.
     #[inline(always)]
     pub(super) fn with_books(&mut self, eq: &Equations<'_>, state: &State, t: f64, error: f64) -> f64 {
         if self.books.is_none() || error.is_nan() || error > 1.0 {
@@ -163,11 +163,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         (after - before).abs() / (allowed + ROUNDING * size)
     }
 
-    /// Returns the longest time step from time t, s.
+    /// Returns the maximum time step from time t, s.
     ///
-    /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. In stick the step is below the
-    /// stability limit, so that no oscillation grows. At rest it is at most [`REST_REACH`]/`fastest`, so that no
-    /// rounding error grows. In gross slip only waveforms limit it.
+    /// `fastest` is the largest |λ| of the motions with all contacts stuck, 1/s. In stick the step is below the stability limit, so that no
+    /// oscillation grows. At rest the step is at most [`REST_REACH`]/`fastest`, so that no rounding error grows. In gross slip only
+    /// waveforms limit the step.
     pub(super) fn longest_now(&self, t: f64, fastest: f64) -> f64 {
         // An implicit method is stable at any step length.
         let reach = match self.pace.gait.grip {
@@ -179,17 +179,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         self.longest(t).min(reach / fastest)
     }
 
-    /// Returns the longest time step from time t without regard to stick, s; finite.
+    /// Returns the maximum time step from time t without regard to stick, s; finite.
     ///
-    /// Without waves it is the duration of the run so far, and at first the longest duration of a waveform. It does not
+    /// Without waves, the result is the duration of the run so far, and at first the longest duration of a waveform. The result does not
     /// depend on the end of the run.
     pub(super) fn longest(&self, t: f64) -> f64 {
         if self.pace.longest < f64::INFINITY { self.pace.longest } else { t.abs().max(self.pace.first) }
     }
 
-    /// Updates whether all free coordinates are at rest, and returns it.
+    /// Determines and stores whether all free coordinates are at rest, and returns the result.
     ///
-    /// In gross slip the grip does not change.
+    /// During gross slip of all contacts, the stored constraint [`Grip::Slips`] is kept.
     pub(super) fn rest(&mut self, model: &Model, state: &State) -> bool {
         let rests = self.is_at_rest(model, state);
         self.pace.gait.grip = match self.pace.gait.grip {
@@ -214,7 +214,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
 
     /// Returns component `i` at a time inside the step, from the dense output.
     ///
-    /// At the end of the step it is the integrator's own value, without the rounding error of the interpolant.
+    /// At the end of the step the value is that of the integrator, without the rounding error of the interpolant.
     #[inline]
     pub(super) fn component(&self, i: usize, t: f64) -> f64 {
         if t == self.solver.span().end_time { self.solver.span().end[i] } else { self.solver.value(i, t) }
@@ -222,16 +222,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
 }
 
 impl Pace {
-    /// Forgets the last steps after an event.
+    /// Resets the data of earlier steps after an event.
     pub(super) fn restart(&mut self) {
         (self.gait.proven, self.gait.ahead) = (0.0, Ahead::Clear);
     }
 
     /// Returns the factor by which the next step is shortened before a singular moment.
     ///
-    /// Even steps keep the same error if each is the same fraction of the time left. `h` is the length of the accepted
-    /// step; `singular` is the time from its start to the singular moment, s. The factor is 1 - h/singular, but at
-    /// least [`SHRINK`]. It is 1 unless a step towards that moment has been rejected.
+    /// Even steps keep the same error if each is the same fraction of the time left. `h` is the length of the accepted step; `singular` is
+    /// the time from its start to the singular moment, s. The factor is 1 - h/singular, but at least [`SHRINK`]. The factor is 1 unless a
+    /// step towards that moment has been rejected.
     pub(super) fn nearing(&self, h: f64, singular: f64) -> f64 {
         match self.gait.ahead {
             Ahead::Clear => 1.0,
@@ -239,10 +239,10 @@ impl Pace {
         }
     }
 
-    /// Records a rejected step.
+    /// Stores the consequences of a rejected step.
     ///
-    /// A graded step proves no length for the next one. An even step towards a singular moment shortens the next ones,
-    /// see [`Self::nearing`].
+    /// The length of a rejected graded step says nothing about later steps. A rejected even step towards a singular moment shortens the
+    /// next steps, see [`Self::nearing`].
     pub(super) fn refuse(&mut self, aim: &Aim) {
         if aim.closes.is_some() {
             self.gait.proven = 0.0;
@@ -250,7 +250,7 @@ impl Pace {
         self.gait.ahead = if aim.singular.is_finite() { Ahead::Shortens } else { Ahead::Clear };
     }
 
-    /// Returns the error by which step control judges a step.
+    /// Returns the error that step control uses for a step.
     ///
     /// The error of a graded step from a singular moment depends on the square root of its length. An error above 1 is therefore squared.
     pub(super) fn judged(error: f64, grade: Grade) -> f64 {
@@ -264,7 +264,7 @@ fn is_kinked(model: &Model) -> bool {
     model.free.is_empty() && model.contacts.iter().any(bends)
 }
 
-/// Returns the longest time step that resolves every smooth wave, s; ∞ without waves.
+/// Returns the maximum time step that resolves every smooth wave, s; ∞ without waves.
 fn longest(model: &Model) -> f64 {
     model.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min)
 }
@@ -283,18 +283,18 @@ fn scene_time(model: &Model) -> f64 {
 
 /// Returns how close to a singular moment a step must end, as a fraction of the step.
 ///
-/// A force with the power 3/2 of time causes an error with the power 5/2 of the missed time. The damping force of stuck
-/// springs causes an error with the power 3/2 of the missed time. A missed part of tolerance^{2/5} or tolerance^{2/3}
-/// thus causes an error of the size of the tolerance. The result is a tenth of that part.
+/// A force with the power 3/2 of time causes an error with the power 5/2 of the time missed at the end. The damping force of stuck springs
+/// causes an error with the power 3/2 of that time. A missed fraction of tolerance^{2/5} or tolerance^{2/3} thus causes an error of the
+/// size of the tolerance. The result is a tenth of that fraction.
 fn closeness(model: &Model, tolerance: f64) -> f64 {
     let damped = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
     0.1 * math::powf(tolerance, if damped { 2.0 / 3.0 } else { 0.4 })
 }
 
-/// Returns the constants of the error estimate of a method with few stages.
+/// Returns the constants of the error estimate of a method with few stages (order 5).
 ///
-/// After a step of θ rad of an oscillation with natural amplitude, the estimate is error · θ^power. Up to the step
-/// `stable`, rad, oscillations do not grow, or grow by less than 1e-5 per radian.
+/// After a step of θ rad of an oscillation with natural amplitude, the estimate is error · θ^power. Oscillations do not grow, or grow by
+/// less than 1e-5 per radian, up to a step of `stable` rad.
 ///
 /// Dormand and Prince: deviation of the fifth power in the embedded stability polynomial, 1097/120000 - 1/120. Nyström:
 /// 35/336 of the largest difference between the accelerations of the last stage and of the end.
@@ -313,7 +313,7 @@ struct Estimate {
     stable: f64,
 }
 
-/// Returns the longest time step with few stages, s, which meets the tolerance for the fastest oscillation.
+/// Returns the maximum time step with few stages, s, which meets the tolerance for the fastest oscillation.
 ///
 /// The result is 0 if the method has no such step or nothing oscillates.
 fn short(method: Method, model: &Model, tolerance: f64) -> f64 {

@@ -1,11 +1,11 @@
 //! Paths of contacts through an accepted step.
 //!
-//! A slip memory commits a path in the plane of (d, u), not only its end. A straight path is exact, except while a
-//! contact grows in full stick (|u̇| ≤ κḋ). There the force depends on the path, and a straight path reduces the order
-//! of the method, which the embedded error estimate does not detect.
+//! A slip memory commits a path in the plane of (d, u), not only its end. A straight path is exact, except while a contact grows in full
+//! stick (|u̇| ≤ κḋ). During growth the force depends on the path, and a straight path reduces the order of the method. The embedded error
+//! estimate does not detect this loss.
 //!
-//! In full stick the force is therefore a state, Ḟ_x = G\*m(d)u̇. The path is committed in pieces, each with the force
-//! and the energy of the state at its end.
+//! In full stick the force is therefore a state, Ḟ_x = G\*m(d)u̇. The path is committed in pieces, each with the values of the force and
+//! energy states at its end.
 
 use super::Located;
 use super::motion::Motion;
@@ -16,26 +16,26 @@ use crate::state::State;
 use stickslip_contact::Segment;
 use stickslip_stepper::{Attempt, Completion};
 
-/// Largest number of pieces of a growth path, unless their bend would exceed [`LEAST_BEND`].
+/// Largest number of pieces of a growth path, unless the bend of a piece would exceed [`LEAST_BEND`].
 const MOST_PIECES: f64 = 256.0;
-/// Bend of a piece in u_c up to which [`MOST_PIECES`] are sufficient, or ten times the allowed bend if that is less.
+/// Bend of a piece in u_c down to which [`MOST_PIECES`] are sufficient, or ten times the allowed bend if that is less.
 const LEAST_BEND: f64 = 1e-9;
-/// Largest number of pieces of a growth path. It bounds the memory.
+/// Largest number of pieces of a growth path, which bounds the use of memory.
 pub(super) const FINEST_PIECES: f64 = 1024.0;
 
 /// Largest bend of a piece of a growth path, in tolerances of u_c.
 ///
-/// Both ends have the force of the state. The bend matters only if a slip edge later stops inside the piece.
+/// The force at both ends of a piece is exact. The bend matters only if a slip edge later stops inside the piece.
 const BEND: f64 = 100.0;
 /// Largest product of βω and the bend of a piece, in tolerances of u_c, if stuck springs are damped.
 ///
-/// When a slip edge later moves back through the path, the damping force depends on the position of the edge. The
-/// piece, and not the state, determines that position.
+/// When a slip edge later moves back along the path, the damping force depends on the position of the edge. The committed piece, and not
+/// the state, determines that position.
 const DAMPED_BEND: f64 = 1.0;
 /// Smallest limit of the bend of a piece under strong damping, in tolerances of u_c.
 const LEAST_DAMPED_BEND: f64 = 0.1;
 
-/// Number of straight paths by which a step is reported to a record that requests paths.
+/// Number of straight pieces per step that are reported to a record that requests paths.
 const BENDS: u32 = 8;
 
 /// Contacts whose slip memories commit at the end of a step.
@@ -52,8 +52,8 @@ pub(super) enum Moves {
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Collects the paths of contacts to the end of the step: a straight path, or pieces for growth in full stick.
     ///
-    /// A contact with a closed-form force uses up one memory piece. One straight path to its own next event is
-    /// equivalent to many. The paths are collected in the ledger and not committed here.
+    /// A contact with a closed-form force slips along one memory piece. One straight path to its own next event is equivalent to many short
+    /// ones. The paths are collected in the ledger and not committed here.
     pub(super) fn trace_step(&mut self, state: &State, t: f64, moves: Moves) {
         self.ledger.clear();
         if moves == Moves::Open && self.interval.is_closed() {
@@ -102,10 +102,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         growth.trace((c, slot), (t, &motion), |t, piece| self.ledger.push(c, t, piece));
     }
 
-    /// Reports the bend of paths within a step to a record that requests paths.
+    /// Reports curved paths within a step to a record that requests paths.
     ///
-    /// A path bends where the indentation changes, and friction does work along the bend. The committed path is
-    /// straight, because memories and forces depend on its end only.
+    /// A path is curved where the indentation changes, and friction does work along the curve. The committed path is straight, because
+    /// memories and forces depend on its end only.
     #[inline(never)]
     fn tell_bends(&mut self, state: &State, t: f64) {
         let spent = self.motion.solver.evaluations();
@@ -161,7 +161,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 }
 
-/// Returns the number of pieces of a path. `bend` is the distance of its middle from the straight line, in u_c.
+/// Returns the number of pieces of a path. `bend` is the distance of its middle from the straight chord, in u_c.
 ///
 /// `allowed` is the largest bend of a piece, in u_c.
 fn pieces(bend: f64, allowed: f64) -> f64 {
@@ -180,12 +180,12 @@ pub(super) struct Growth<'r, 'e, A> {
 }
 
 impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
-    /// Divides the path of a growing contact into pieces, up to a time and a motion inside the step.
+    /// Divides the path of a contact growing in full stick into pieces, up to a time and a motion inside the step.
     ///
-    /// The path comes from the dense output. The bend of a piece decreases with the square of their number. A path whose middle is δ from
-    /// the straight line thus gets √(δ/allowed) pieces, limited by [`pieces`]. The allowed bend follows from [`BEND`] and [`DAMPED_BEND`].
+    /// The path comes from the dense output. The bend of a piece decreases with the square of the number of pieces. A path whose middle is
+    /// δ from the chord thus gets √(δ/allowed) pieces, limited by [`pieces`]. The allowed bend follows from [`BEND`] and [`DAMPED_BEND`].
     ///
-    /// `joins` of the first piece states whether growth continues without a bend, so that collinear pieces can be merged.
+    /// For the first piece, `joins` states whether it continues earlier growth without a corner, so that collinear pieces can be merged.
     pub(super) fn trace(
         &self,
         (c, slot): (usize, usize),

@@ -1,6 +1,6 @@
 //! Storage of a run with located events, kept for the next run.
 //!
-//! It contains only buffers, which every run fills again. A run does not depend on earlier ones.
+//! The storage contains only buffers, which every run fills again. A run does not depend on earlier ones.
 
 use super::turning::Turning;
 use super::watch::Watch;
@@ -55,7 +55,7 @@ impl<A> Room<A> {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
-    /// Runs a started state to the end of its plan, in existing storage if it fits.
+    /// Runs a started state to the end of its plan, in existing storage if that has the same layout.
     pub(super) fn run(
         room: &mut Option<Self>,
         (setting, plan, control): (Setting<'_>, &Plan, (u32, StepLimits)),

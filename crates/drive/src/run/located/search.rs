@@ -1,14 +1,14 @@
 //! Location of the first event in a step.
 //!
-//! An event is the first time in the half-open interval (t₀, t₁] at which an event function falls below zero by more
-//! than its deadband. The start t₀ belongs to the previous step, so the event there does not occur again.
+//! An event is the first time in the half-open interval (t₀, t₁] at which an event function falls below zero by more than its deadband. The
+//! start t₀ belongs to the previous step, so an event at t₀ does not occur again.
 //!
-//! An event function that is negative at the end of the step has crossed zero. If it is positive at both ends, it may
-//! be negative in between. Where values and rates at both ends describe it, the minimum of the cubic Hermite
-//! interpolant is evaluated. Other functions are evaluated at three times inside the step.
+//! An event function that is negative at the end of the step has crossed zero. A function that is positive at both ends may be negative in
+//! between. If values and rates at both ends describe the function, the minimum of the cubic Hermite interpolant is evaluated. Other
+//! functions are evaluated at three times inside the step.
 //!
-//! The event time is a bracketed root on the dense output, without force evaluations. Event functions that are negative
-//! or near zero at that time belong to the same event. All of them are collected before any law is chosen.
+//! The event time is a bracketed root on the dense output, without force evaluations. Event functions that are negative or near zero at
+//! that time belong to the same event. All of these are collected before any law is chosen.
 
 mod meeting;
 mod reading;
@@ -38,7 +38,7 @@ struct Search<'r, 'e, A> {
     eq: &'r Equations<'e>,
     /// Whether the step has been cut. The slopes at its end are then unknown.
     is_cut: bool,
-    /// Motions of the current contact inside the step that have been computed.
+    /// Motions of the current contact inside the step that have already been computed.
     seen: ArrayVec<Seen, { LOOKS.len() + side::EARLY.len() }>,
 }
 
@@ -49,15 +49,15 @@ struct Seen {
     motion: Motion,
 }
 
-/// Fractions of a step at which event functions are evaluated that no polynomial of low degree describes.
+/// Fractions of a step at which event functions that no polynomial of low degree describes are evaluated.
 const LOOKS: [f64; 3] = [0.25, 0.5, 0.75];
-/// Largest minimum of the cubic that is checked on the dense output, as a fraction of the smaller end value.
+/// Largest minimum of the cubic interpolant that is checked on the dense output, as a fraction of the smaller end value.
 const DIPS_TO: f64 = 0.1;
-/// Largest number of bisections in search of a time at which an event function near zero is armed.
+/// Largest number of bisections to find a time at which an event function near zero exceeds its deadband.
 const HALVINGS: u32 = 40;
 /// Largest number of searches for an earlier event.
 ///
-/// The limit ends an endless loop between two event functions that contain only rounding errors.
+/// The limit ends an endless loop between two event functions whose values are only rounding errors.
 const EARLIER: u32 = 64;
 
 impl Watch {
@@ -77,11 +77,11 @@ impl Watch {
 
     /// Ends the step at an event and collects all event functions that belong to it.
     ///
-    /// An event function that is already negative there, but positive at both ends of the attempted step, gives an
-    /// earlier event. An example is a memory piece that is used up before a reversal. The collected functions are the
-    /// one that ends the step and all others that are negative or near zero there.
+    /// An event function that is already negative at the event, but positive at both ends of the attempted step, gives an earlier event. An
+    /// example is a memory piece that ends before a reversal. The collected functions are the one that ends the step and all others that
+    /// are negative or near zero there.
     ///
-    /// If motions may decay within a step, `fading` has the allowed errors. The cut is then as accurate as an end.
+    /// If motions may decay within a step, `fading` has the allowed errors. The cut is then as accurate as the end of a step.
     pub(super) fn end_at<'e, A: for<'q> Attempt<Equations<'q>>>(
         &mut self,
         (solver, fading): (&mut A, Option<&Vec<f64>>),
@@ -139,8 +139,8 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
 
     /// Whether all event functions of a contact with a closed-form force stay positive and away from zero in the step.
     ///
-    /// The control points of the velocity cubic show that the slip edge does not stop. The memory piece must outlast
-    /// the step. `third` is a third of the step, s.
+    /// The control points of the velocity cubic show that the slip edge does not stop. The memory piece must not end within the step.
+    /// `third` is a third of the step, s.
     #[inline(always)]
     fn is_far(&self, steady: &Closed<'_>, third: f64) -> bool {
         let (from, to) = (&self.from[steady.index], &self.to[steady.index]);
@@ -180,7 +180,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
 
     /// Whether an event function that is negative at time `low` is still positive at `t`, where another event occurs.
     ///
-    /// Its own crossing is then not needed.
+    /// The zero crossing of this function is then not needed.
     fn comes_later(&self, watched: Watched<'e>, low: f64, t: f64) -> bool {
         t < low && self.inside(watched, t) > self.bands(watched).1
     }
@@ -190,7 +190,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         g < -self.bands(watched).0 && g < self.at_begin(watched)
     }
 
-    /// Returns the earliest zero crossing of other event functions before the event that ends the step.
+    /// Returns the earliest zero crossing of another event function before the event that ends the step.
     fn before(&self, last: Fall<'e>, near: &[usize]) -> Option<Fall<'e>> {
         let mut first: Option<Fall<'e>> = None;
         Watched::each(self.eq, near, |watched| {
@@ -205,7 +205,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         first
     }
 
-    /// Returns time and value of the minimum of an event function that is positive at both ends, if it is negative.
+    /// Returns time and value of the minimum of an event function that is positive at both ends, if the minimum is negative.
     #[inline(always)]
     fn dip(&mut self, watched: Watched<'e>, g1: f64) -> Option<(f64, f64)> {
         if let Watched::Contact(index, contact, Guard::Side) = watched {
@@ -234,7 +234,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         Some(low).filter(|(_, g)| *g < -self.bands(watched).0)
     }
 
-    /// Returns the first evaluated time inside the step at which an event function has crossed zero, and its value.
+    /// Returns the first sampled time inside the step at which an event function has crossed zero, and the value there.
     fn looks(&mut self, watched: Watched<'e>) -> Option<(f64, f64)> {
         let (t0, h) = (self.solver.span().time, self.solver.span().end_time - self.solver.span().time);
         let mut looks = LOOKS.into_iter().map(|share| match watched {
@@ -248,7 +248,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         self.has_fallen(watched, g).then_some((t, g))
     }
 
-    /// Returns a time inside the step and the value of an event function there.
+    /// Returns the given time inside the step and the value of an event function there.
     fn look(&mut self, watched: Watched<'e>, t: f64) -> (f64, f64) {
         self.solver.complete(self.eq, Completion::Dense);
         (t, self.inside(watched, t))
@@ -256,7 +256,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
 
     /// Returns the time at which an event function crosses zero, between the start of the step and a time with a negative value.
     ///
-    /// Requires the dense output.
+    /// Requires the dense output of the step.
     #[inline(never)]
     fn fall(&self, watched: Watched<'e>, (low, below): (f64, f64)) -> f64 {
         let (t0, g0) = (self.solver.span().time, self.at_begin(watched));
@@ -291,8 +291,8 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
 
     /// Returns the event time of an event function that is near zero at the start of the step.
     ///
-    /// It either rises above its deadband, is armed there and then crosses zero, or it leaves the deadband downwards.
-    /// Two events of one function are therefore always separated by an excursion larger than rounding.
+    /// The function either rises above its deadband and then crosses zero, or it leaves the deadband downwards. Two events of one function
+    /// are therefore always separated by an excursion larger than rounding.
     fn leave(&self, watched: Watched<'_>, from: Point, low: Point) -> f64 {
         let (g, dead) = (|t: f64| self.inside(watched, t), self.bands(watched).0);
         let tolerance = 4.0 * f64::EPSILON * low.x.abs();

@@ -1,8 +1,8 @@
-//! Moving origins of coordinates that travel far.
+//! Shift of the origins of coordinates that travel far.
 //!
-//! u of a contact is the difference between a growing position and a slip memory that moves along. Counted from the
-//! start, it would lose a digit with every tenfold of the distance. The origin therefore moves by powers of two, which
-//! rounds no sum. Slip memories and branches of the contacts on that coordinate move with it.
+//! The displacement u of a contact is the difference between a growing position and a slip memory that moves along. Without a shift, u
+//! would lose a digit with every tenfold of the distance. The origin therefore moves by powers of two, which rounds no sum. Slip memories
+//! and force-law branches of the contacts on that coordinate move with the origin.
 
 use crate::Model;
 use crate::model::Free;
@@ -10,12 +10,12 @@ use crate::state::State;
 
 /// Distance from the origin beyond which the origin moves, in natural lengths.
 pub(super) const FAR: f64 = 1024.0;
-/// Bit mask of a double that keeps sign and exponent.
+/// Bit mask that keeps sign and exponent of a double.
 const SIGN_AND_EXPONENT: u64 = 0xfff0_0000_0000_0000;
 
-/// Moves the origins of coordinates that are more than [`FAR`] natural lengths away. Returns whether any has moved.
+/// Moves the origins of coordinates that are more than [`FAR`] natural lengths away. Returns whether any origin has moved.
 ///
-/// Only coordinates on which nothing but contacts depends can move. The integrator must restart afterwards.
+/// Only coordinates on which nothing but contacts depends have movable origins. The integrator must restart afterwards.
 #[inline]
 pub(super) fn shift(model: &Model, state: &mut State) -> bool {
     let is_far = |(free, x): (&Free, &f64)| free.travels && x.abs() > FAR * free.scale.0;

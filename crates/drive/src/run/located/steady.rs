@@ -1,7 +1,7 @@
-//! End of a run as soon as the step length of the drive is constant.
+//! End of a run as soon as the step length of the drive is steady.
 //!
-//! Up to its end the run has the same bits as a run without that option. Period ends are read from the dense output,
-//! and no step is cut there.
+//! Up to its end the run has the same bits as a run without early end. Positions at period ends come from the dense output, and no step is
+//! cut there.
 
 use super::Located;
 use crate::equations::Equations;
@@ -9,9 +9,9 @@ use crate::state::State;
 use stickslip_stepper::{Attempt, Completion};
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Evaluates all period ends in the attempted step, from the dense output.
+    /// Evaluates the step length of the drive at all period ends in the attempted step, from the dense output.
     ///
-    /// Ends the run at the period end with which the step length of the drive is constant. Otherwise nothing changes.
+    /// Ends the run at the period end at which this step length has become steady. Otherwise nothing changes.
     #[inline(never)]
     pub(super) fn take_steps(&mut self, state: &State) {
         let (t, i) = (self.motion.solver.span().end_time, self.horizon.steps.coordinate);

@@ -1,8 +1,8 @@
 //! Attempt of a step, and processing of an accepted step.
 //!
-//! The order is an invariant. The state does not change before a step is accepted. Rows and snapshots are written while
-//! the dense output exists. Then the state moves to the end of the step, all slip memories commit, and laws change. A
-//! rejected step only shortens the next one and is counted.
+//! The order of operations must not change. The state does not change before a step is accepted. Rows and snapshots are written while the
+//! dense output exists. Then the state moves to the end of the step, all slip memories commit, and laws change. A rejected step only
+//! shortens the next step and is counted.
 
 use super::aim::Aim;
 use super::motion::Pace;
@@ -29,10 +29,10 @@ enum Ending {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Advances to the next event by a leap, or attempts one step and processes it if it is accepted.
+    /// Advances to the next event by one closed-form step, or attempts one integration step and processes it if accepted.
     ///
-    /// The order is attempt, locate, accept, commit, next law. Fails if the step would be too small, a value is not finite, a contact or
-    /// block refuses its path, or a limit is reached. The state is then that of the last accepted step.
+    /// The order is attempt, locate, accept, commit, next law. Fails if the step would be too small, if a value is not finite, if a contact
+    /// or block cannot follow its path, or if a limit is reached. The state is then that of the last accepted step.
     pub(super) fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         let tells_rows = self.output.rows.any() && record.wants_events();
         if tells_rows {
@@ -52,7 +52,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Advances by a leap or a step between located events.
+    /// Advances by a closed-form step or an integration step between located events.
     #[inline(always)]
     fn step_smoothly(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
         if let Some(progress) = self.leap(state, record)? {
@@ -121,7 +121,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Returns the length of the next step, s, after a step of length `h` for which step control proposes `next`.
     ///
-    /// A step shortened by an event or corner ahead does not reduce the planned length. A step that an event has cut does not increase it.
+    /// A step shortened by an event or corner ahead does not reduce the next length. A step that an event has cut does not increase it.
     fn wished(&self, state: &State, ending: Ending, (h, next): (f64, f64)) -> f64 {
         match (ending == Ending::Event, h < state.step) {
             // A coasting step says nothing about step lengths under the next law.
@@ -133,7 +133,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Returns the method of the accepted step, for statistics only.
+    /// Returns the integration method of the accepted step, for statistics only.
     fn method(&self, aim: &Aim) -> Method {
         match aim.grade {
             _ if self.interval.is_constant() && self.setting.layout.free > 0 => Method::Parabola,
@@ -143,7 +143,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Processes a rejected step: shortens the next one and updates the allowance for rounding.
+    /// Processes a rejected step: shortens the next step and updates allowed errors, which rounding limits.
     ///
     /// Fails if the next step would be only a few rounding errors of t.
     #[inline(never)]
@@ -174,8 +174,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Returns which slip memories commit at the end of the located step.
     ///
-    /// All commit where laws of contacts without an event may change. This is the case at corners, at events of blocks,
-    /// and in models with quasi-static coordinates.
+    /// All slip memories commit where laws of contacts without an event may change: at corners, at events of blocks, and in models with
+    /// quasi-static coordinates.
     fn moves(&self, ending: Ending) -> Moves {
         let others = self.watch.fired.iter().any(|fallen| matches!(fallen, Fallen::Block(..)));
         if ending == Ending::Corner || others || !self.setting.model.balanced.is_empty() {
@@ -189,8 +189,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Accepts a step: writes the output inside it, moves the state to its end and commits contacts and blocks.
     ///
-    /// Other contacts with closed-form forces do not commit, and the ledger records that. Fails if a commit is refused,
-    /// or, before the state has changed, if a component is not finite.
+    /// Contacts with closed-form forces and no event do not commit, which the ledger stores. Fails if a commit is refused, or, before the
+    /// state has changed, if a component is not finite.
     fn accept(&mut self, state: &mut State, record: &mut dyn Record, moves: Moves) -> Result<(), RunError> {
         let t = self.motion.solver.span().end_time;
         self.trace_step(state, t, moves);
@@ -224,7 +224,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Sets all velocities to zero at rest, so that rounding errors do not accumulate.
+    /// For a body at rest, sets all velocities to zero, so that rounding errors do not accumulate.
     fn stop(&mut self, state: &mut State) {
         let free = self.setting.layout.free;
         if state.y[free..2 * free].iter().any(|v| *v != 0.0) {
@@ -236,7 +236,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
 /// Attempts a step and ends it at the first event inside it.
 ///
-/// Event functions are evaluated only if the error is allowed. All that cross zero together with the first are collected as one event.
+/// Event functions are evaluated only if the error is allowed. All functions that cross zero together with the first belong to one event.
 #[inline(always)]
 fn attempt<A: for<'e> Attempt<Equations<'e>>>(
     (motion, watch, control): (&mut Motion<A>, &mut Watch, &mut StepControl),

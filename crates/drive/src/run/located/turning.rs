@@ -1,8 +1,8 @@
 //! Waveforms at a corner.
 //!
-//! A corner ends a step exactly: the pieces on both sides are smooth, and no step contains parts of both. Here
-//! waveforms change their pieces, and the works of jumps are added up. Afterwards [`laws`](super::laws) chooses the
-//! contact laws from the velocities after the corner.
+//! A corner ends a step exactly: the pieces on both sides are smooth, and no step contains parts of both. This module moves waveforms to
+//! their next pieces and adds up the work of jumps. Afterwards [`laws`](super::laws) chooses the contact laws from the velocities after the
+//! corner.
 
 use super::Located;
 use crate::RunError;
@@ -16,7 +16,7 @@ use crate::state::{Books, State};
 use stickslip_contact::Segment;
 use stickslip_stepper::Attempt;
 
-/// Scratch for waveform corners.
+/// Scratch memory for the processing of waveform corners.
 #[derive(Debug, Default)]
 pub(super) struct Turning {
     jumps: Jumps,
@@ -28,7 +28,7 @@ pub(super) struct Turning {
     pub(super) bent: Vec<bool>,
 }
 
-/// Whether any waveform jumps. Only then is the energy before a corner computed.
+/// Whether any waveform jumps. Only in this case is the energy before a corner computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Jumps {
     #[default]
@@ -94,9 +94,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(())
     }
 
-    /// Begins the pieces of inputs and the commands of generators that were given since the run stopped here.
+    /// Begins supplied pieces of inputs and commanded cycles of generators that were given since the run stopped at this time.
     ///
-    /// Slip memories that wait for an event commit first, because their paths bend here.
+    /// Slip memories that wait for an event commit first, because contact paths have a corner here.
     pub(super) fn turn_due(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         if state.supplied.is_empty() && state.generators.is_empty() {
             return Ok(());
@@ -118,8 +118,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Blocks jump first, then bodies that follow a waveform or a block. Free coordinates stay, because no finite force
     /// moves a mass in zero time. The model refuses dampers between parts that jump.
     ///
-    /// The work of the jump is the gain of elastic energy plus the friction work; `before` is the energy before the
-    /// jump. Fails if a quasi-static body has no equilibrium after the jump, or if a contact leaves its row or table.
+    /// The work of the jump is the gain of elastic energy plus the friction work; `before` is the energy before the jump. Fails if a
+    /// quasi-static body has no equilibrium after the jump, or if a contact leaves the range of its spring row or table.
     fn jump(&mut self, state: &mut State, (before, laden): (f64, f64)) -> Result<(), RunError> {
         let mut friction = 0.0;
         self.ledger.jump_blocks((self.setting.model, self.setting.layout), state)?;

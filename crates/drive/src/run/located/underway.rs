@@ -1,7 +1,7 @@
 //! Run data that are saved in the state and restored from it.
 //!
-//! Everything else is scratch and follows from the state. Examples are the interval, the contacts at the start of the
-//! next step, and the motion of a leap.
+//! All other run data are scratch and follow from the state. Examples are the interval, the contacts at the start of the next step, and the
+//! motion of a closed-form step.
 
 use super::Located;
 use crate::equations::Equations;
@@ -10,7 +10,7 @@ use crate::state::{LocatedWay, State, Takeoff, Underway, Whereabouts};
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Saves everything that the next step depends on and adds the evaluations to the counts.
+    /// Saves everything that the next step depends on, and adds the number of evaluations to the counts of the state.
     pub(super) fn put_down(&mut self, state: &mut State) {
         let solver = &self.motion.solver;
         // The count does not depend on output.
@@ -40,7 +40,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         state.underway = Some(Underway::Located(way));
     }
 
-    /// Restores what an earlier run has saved.
+    /// Restores the run data that an earlier run has saved in the state.
     pub(super) fn take_up(&mut self, state: &State, way: &LocatedWay) {
         self.control.set_history(way.history);
         self.motion.pace.gait = way.gait;

@@ -1,9 +1,9 @@
 //! Contacts at both ends of a step, and the zero crossings at its end.
 //!
-//! Motions and accelerations of all contacts are computed once for each end. Event functions and their rates are then
-//! cheap. The module [`search`](super::search) evaluates times between the ends.
+//! Motions and accelerations of all contacts are computed once for each end of a step. Event functions and their rates then cost little.
+//! The module [`search`](super::search) evaluates times between the ends.
 //!
-//! A swap makes the end of a step the start of the next one. After a jump of slopes, the start is computed again.
+//! A swap makes the end of a step the start of the next one. After a jump of accelerations, the start is computed again.
 
 use crate::contact::{Contact, Guard, Mode, Motion};
 use crate::equations::{Components, Equations};
@@ -12,7 +12,7 @@ use crate::model::{Measure, Model};
 use stickslip_contact::Memory;
 use stickslip_stepper::{End, Span, Step};
 
-/// Smallest remaining length of a memory piece for which a step waits, in rounding errors of its bodies' positions.
+/// Smallest remaining length of a memory piece at which a step ends, in rounding errors of the positions of its bodies.
 const LAST_PLACES: f64 = 2.0;
 
 /// Contact at one end of a step.
@@ -34,7 +34,7 @@ pub(super) enum Fallen {
 }
 
 impl Fallen {
-    /// Whether both belong to the same component.
+    /// Whether both event functions belong to the same component.
     pub(super) fn is_of(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Contact(a, _), Self::Contact(b, _)) | (Self::Block(a, _), Self::Block(b, _)) => a == b,
@@ -50,16 +50,16 @@ pub(super) struct Watch {
     pub(super) from: Vec<Moving>,
     /// Contacts at the end of the step.
     pub(super) to: Vec<Moving>,
-    /// Positions of contacts with closed-form forces whose event functions may come near zero in the step.
+    /// Indices, in the interval, of contacts with closed-form forces whose event functions may come near zero in the step.
     pub(super) near: Vec<usize>,
     /// Zero crossings at the end of the step.
     pub(super) fired: Vec<Fallen>,
-    /// Tolerance of the plan, which scales the nearness of event functions.
+    /// Tolerance of the plan, which scales the near-zero bands of event functions.
     pub(super) tolerance: f64,
-    /// Whether only works are integrated, because no coordinate is free.
+    /// Whether only energies are integrated, because no coordinate is free.
     ///
-    /// In the first quarter of a step the method has only one weight. The error estimate does not show what happens
-    /// there to a slip edge that has just reversed.
+    /// In the first quarter of a step the method has only one weight. The error estimate therefore does not detect the motion of a slip
+    /// edge that has just reversed there.
     integrates_works: bool,
 }
 
@@ -77,7 +77,7 @@ impl Watch {
         Self { tolerance, integrates_works: model.free.is_empty(), ..self }
     }
 
-    /// Computes the contacts at the start of the next step, after a jump of slopes.
+    /// Computes the contacts at the start of the next step, after a jump of accelerations.
     pub(super) fn set_out(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let span = solver.span();
         follow(eq, &mut self.from, (span.time, span.begin), |i| solver.slope(i, End::Start));
@@ -91,7 +91,7 @@ impl Watch {
 
     /// Computes the contact motions at the end of a cut step.
     ///
-    /// Slopes are unknown there, and no rates are needed. Contacts with closed-form forces far from any event are skipped.
+    /// Accelerations are unknown there, and no rates are needed. Contacts with closed-form forces far from any event are skipped.
     pub(super) fn arrive_at_cut(&mut self, eq: &Equations<'_>, solver: &impl Step) {
         let (Some(interval), Span { end_time: t, end: y, .. }) = (eq.interval, solver.span()) else { return };
         let n = eq.layout.free;
@@ -109,9 +109,9 @@ impl Watch {
         std::mem::swap(&mut self.from, &mut self.to);
     }
 
-    /// Returns the motion of contact `c` at the end of a step or leap, at time t with components y.
+    /// Returns the motion of contact `c` at the end of a step, at time t with components y.
     ///
-    /// For a contact with a closed-form force it is computed from t and y, because a leap does not watch contacts.
+    /// For a contact with a closed-form force the motion is computed from t and y, because closed-form steps compute no contacts.
     pub(super) fn motion_at_end(&self, interval: &Interval<'_>, c: usize, (t, y): (f64, &[f64])) -> Motion {
         match interval.closed_form(c) {
             Some(steady) => {
@@ -123,7 +123,7 @@ impl Watch {
     }
 }
 
-/// Computes the contacts at time t with components y and the slopes of their velocities.
+/// Computes the contacts at time t with components y and with accelerations from `slope`.
 #[inline(always)]
 fn follow(
     eq: &Equations<'_>,
@@ -144,7 +144,7 @@ fn follow(
     }
 }
 
-/// Returns d̈ and ü of a contact, m/s², from the slopes of the velocities.
+/// Returns d̈ and ü of a contact, m/s², from the accelerations of the coordinates.
 fn second(
     eq: &Equations<'_>,
     contact: &Contact,
@@ -157,7 +157,7 @@ fn second(
 }
 
 impl Watch {
-    /// Returns when the first contact is expected to reverse or to leave full stick, s from the start of the step.
+    /// Returns the time until the first contact is expected to reverse or to leave full stick, s from the start of the step.
     pub(super) fn turn(&self, eq: &Equations<'_>) -> f64 {
         let Some(interval) = eq.interval else { return f64::INFINITY };
         let falls = |value: f64, rate: f64| {
@@ -181,10 +181,10 @@ impl Watch {
         closed.chain(open).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the contact with a closed-form force that is expected to use up its memory piece first, and when.
+    /// Returns the contact with a closed-form force that is expected to reach the end of its memory piece first, and the time.
     ///
-    /// The time counts in s from the start of the step, which has the components `begin`. `None` if no slip edge
-    /// reaches the end of its piece with the current motion.
+    /// The time counts in s from the start of the step, which has the components `begin`. `None` if no slip edge reaches the end of its
+    /// memory piece with the current motion.
     #[inline(always)]
     pub(super) fn expected_of_closed(&self, closed: &[Closed<'_>], begin: &[f64]) -> Option<(usize, f64)> {
         let mut first = None;
@@ -208,11 +208,11 @@ impl Watch {
         first
     }
 
-    /// Returns when a contact without a closed-form force is expected to use up its memory piece, s.
+    /// Returns the time until a contact without a closed-form force is expected to reach the end of its memory piece, s.
     ///
-    /// For a spring row it is the next change of a spring.
+    /// For a spring row it is the time until the next spring changes its state.
     ///
-    /// The result is ∞ if no slip edge reaches the end of its piece with the current motion.
+    /// The result is ∞ if no slip edge reaches the end of its memory piece with the current motion.
     pub(super) fn expected_of(&self, eq: &Equations<'_>, c: usize, solver: &impl Step) -> f64 {
         let (contact, mode) = (&eq.model.contacts[c], &eq.modes[c]);
         let Moving { motion, second } = self.from[c];
@@ -240,14 +240,14 @@ impl Watch {
     }
 }
 
-/// Whether the remaining length of a memory piece (m) is below [`LAST_PLACES`] rounding errors of the positions behind u.
+/// Whether the remaining length of a memory piece (m) is below [`LAST_PLACES`] rounding errors of the positions that determine u.
 ///
-/// `x` returns a free coordinate. No step waits for such an end; a later step finds it.
+/// `x` returns a free coordinate. No step is shortened for such an end of a piece; a later step finds it.
 fn is_rounding(left: f64, contact: &Contact, x: impl Fn(usize) -> f64) -> bool {
     left < LAST_PLACES * f64::EPSILON * contact.u.travel(x)
 }
 
-/// Returns when the first spring of a row is expected to touch, separate or slip, s from now.
+/// Returns the time until the first spring of a row is expected to touch, separate or slip, s.
 fn lull_end(contact: &Contact, law: (&Memory, &Mode), at: &Motion, (bend, pull): (f64, f64)) -> f64 {
     let slope = contact.interface.stick_slope();
     let of = |guard: Guard, pull: f64| {
@@ -266,7 +266,7 @@ fn lull_end(contact: &Contact, law: (&Memory, &Mode), at: &Motion, (bend, pull):
 ///
 /// The speed is in m/s, the acceleration `pull` in m/s².
 ///
-/// The root is 2·left/(speed + √(speed² + 2·pull·left)), which has no cancellation.
+/// The time t is the root 2·left/(speed + √(speed² + 2·pull·left)), a form without cancellation.
 #[inline(always)]
 fn reached(left: f64, speed: f64, pull: f64) -> f64 {
     // A decelerating edge may stop before.

@@ -7,8 +7,8 @@ use crate::interval::Closed;
 
 /// Event function of a component.
 ///
-/// For a contact with a closed-form force it is a linear function of the state. For another contact it is a function of
-/// its motion; a block defines its own.
+/// The event function of a contact with a closed-form force is linear in the state. For another contact it is a function of the contact's
+/// motion; a block defines its own event functions.
 #[derive(Clone, Copy)]
 pub(super) enum Watched<'e> {
     Closed(&'e Closed<'e>, Guard),
@@ -19,7 +19,7 @@ pub(super) enum Watched<'e> {
 impl<'e> Watched<'e> {
     /// Calls `act` for the event functions of all components that can end the step.
     ///
-    /// Of the contacts with closed-form forces, only those at the positions `near` are included.
+    /// Contacts with closed-form forces are included only if their index is in `near`.
     #[inline(always)]
     pub(super) fn each(eq: &Equations<'e>, near: &[usize], mut act: impl FnMut(Self)) {
         let Some(interval) = eq.interval else { return };
@@ -40,7 +40,7 @@ impl<'e> Watched<'e> {
         }
     }
 
-    /// Returns component and event function as a [`Fallen`].
+    /// Returns the component and the event function as a [`Fallen`], which identifies a zero crossing.
     pub(super) fn fallen(self) -> Fallen {
         match self {
             Self::Closed(steady, guard) => Fallen::Contact(steady.index, guard),
@@ -49,7 +49,7 @@ impl<'e> Watched<'e> {
         }
     }
 
-    /// Whether values and rates at both ends of a step do not describe the function inside it.
+    /// Whether the function inside a step does not follow from values and rates at both ends of the step.
     pub(super) fn is_sampled(self) -> bool {
         match self {
             Self::Closed(..) => false,

@@ -1,14 +1,14 @@
 //! Step doubling on the full force law, where events accumulate.
 //!
-//! Some motions have no next smooth interval: both slip edges of a contact stop together, or it opens and closes within rounding. A motion
-//! may also slide along a line on which stick and slip alternate. Steps without event location pass through such motions.
+//! Some motions have no next smooth interval: both slip edges of a contact stop together, or the contact opens and closes within rounding.
+//! A motion may also slide along a line on which stick and slip alternate. Steps without event location can integrate such motions.
 //!
-//! For a part of the natural period of the contact whose events accumulate, all contacts follow the full force law of their slip memories.
-//! Then events are located again. The state counts the intervals of step doubling. Every interval advances the time, so a run always ends.
+//! If events of a contact accumulate, all contacts follow the full force law of their slip memories for a part of its natural period. Then
+//! events are located again. The state counts these intervals of step doubling. Every interval advances the time, so a run always ends.
 //!
-//! A step h of the classical Runge–Kutta method is compared with two half steps, between which the slip memories
-//! commit. Embedded estimates would detect neither kinks nor growth. Across a kink both results are of second order,
-//! and a third of the difference is the error of the half steps.
+//! A step h of the classical Runge–Kutta method is compared with two half steps, between which the slip memories commit. Embedded estimates
+//! would detect neither kinks nor growth in full stick. If the step contains a kink, both results have order 2, and a third of the
+//! difference is the error of the half steps.
 
 mod blocks;
 mod ends;
@@ -29,21 +29,21 @@ use stickslip_contact::{Memory, Segment, Timed};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, Stepping, System};
 use way::Way;
 
-/// Safety factor of the step length.
+/// Safety factor in the choice of the next step length.
 const SAFETY: f64 = 0.8;
 /// Error of the half steps, as a fraction of their difference from the full step.
 const THIRD: f64 = 1.0 / 3.0;
-/// Longest time step, rad of the fastest oscillation. A longer step may agree with its halves by chance.
+/// Maximum time step, rad of the fastest oscillation. The two results of a longer step may agree by chance.
 const LONGEST: f64 = 0.1;
-/// Step length that [`LONGEST`] does not limit, as a fraction of the interval of step doubling.
+/// Step length that is allowed in spite of [`LONGEST`], as a fraction of the interval of step doubling.
 ///
-/// It matters if another oscillation is far faster than the contact. The error of the step then shows that oscillation.
+/// The value matters if another oscillation is far faster than the contact. The error of the step then detects that oscillation.
 const PART: f64 = 0.125;
 /// Shortest step, as a fraction of the interval of step doubling; a shorter step ends the run.
 const SHORTEST: f64 = 1e-10;
-/// Step below which its error is accepted in a sliding mode, as a fraction of the interval of step doubling.
+/// Step length below which any error is accepted in a sliding mode, as a fraction of the interval of step doubling.
 ///
-/// With contact damping the law jumps between stick and slip, and shorter steps agree no better with their halves.
+/// With contact damping the law jumps between stick and slip, and shorter steps do not reduce the difference of the two results.
 const SLIDING: f64 = 1e-4;
 
 /// Rounding error of the energy balance, relative to the size of its terms.
@@ -52,16 +52,16 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// Storage for the steps of step doubling.
 pub(super) struct Halves {
     stepper: Rk4,
-    /// Components: end of the full step (`one`), middle (`half`) and end (`two`) of the half steps.
+    /// Components at the end of the full step (`one`), in the middle (`half`) and at the end (`two`) of the half steps.
     one: Vec<f64>,
     half: Vec<f64>,
     two: Vec<f64>,
     /// Slip memories in the middle of the step.
     memories: Vec<Memory>,
-    /// Components at the start of the step (`start`), and slopes at both ends of a half step (`slopes`).
+    /// Components at the start of the step (`start`), and time derivatives at both ends of a half step (`slopes`).
     start: Vec<f64>,
     slopes: [Vec<f64>; 2],
-    /// Slopes at both ends of the second half step.
+    /// Time derivatives at both ends of the second half step.
     later: [Vec<f64>; 2],
     /// Scratch for the memory of a block.
     kept: Vec<f64>,
@@ -82,14 +82,14 @@ impl Times {
         Self { from, middle: from + 0.5 * (to - from), to }
     }
 
-    /// Whether the middle differs from both ends in spite of rounding.
+    /// Whether the middle of the step differs from both ends in spite of rounding.
     fn moves_on(self) -> bool {
         self.from < self.middle && self.middle < self.to
     }
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Sets all contacts to the full force law. The integrator stays behind the state, because half steps do not use it.
+    /// Sets all contacts to the full force law. The data of the integrator become outdated, because half steps do not use it.
     pub(super) fn take_whole(&mut self, state: &mut State) {
         self.motion.whereabouts = Whereabouts::Behind;
         state.modes.fill(Mode::Whole { sense: 0.0 });
@@ -97,7 +97,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.takeoff = None;
     }
 
-    /// Attempts a step on the full force law and processes it if its half steps agree.
+    /// Attempts a step with the full force law and processes it if the error of its half steps is allowed.
     pub(super) fn step_whole(
         &mut self,
         state: &mut State,
@@ -138,7 +138,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.step(state, record).map(|()| Progress::Made)
     }
 
-    /// Advances to a corner or end that is only one or two rounding errors of t away, without motion.
+    /// Advances the time to a corner or end that is only one or two rounding errors away. Positions do not change.
     fn step_instant(
         &mut self,
         state: &mut State,
@@ -157,7 +157,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.bounds.step(state, record).map(|()| Progress::Made)
     }
 
-    /// Handles waveforms and blocks at the end of a step.
+    /// Handles waveform corners and block events at the end of a step.
     fn turn_in_detour(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         let corner = state.t == self.horizon.corner && !state.waits_for_input(self.setting.model);
         if corner {
@@ -187,7 +187,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Returns the next step: at most the planned length, and not beyond the interval, a corner or the goal.
+    /// Returns the times of the next step: at most the planned length, and not beyond the end of the interval, a corner or the goal.
     fn times(&self, state: &State, detour: &Detour) -> Times {
         let from = state.t;
         let bound = detour.end.min(self.horizon.next());
@@ -245,7 +245,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         Ok(most)
     }
 
-    /// Shortens the next step. Fails if it would be too short, or if even the shortest step has no finite result.
+    /// Shortens the next step. Fails if the step would be too short, or if even the shortest step has no finite result.
     fn refuse_halves(
         &self,
         state: &mut State,
@@ -301,13 +301,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.turn_in_detour(state, record)
     }
 
-    /// Whether output or a period end lies inside a half step that ends at time t.
+    /// Whether output or a period end lies inside the half step that ends at time t.
     fn is_read_inside(&self, t: f64) -> bool {
         let watches = self.output.turns.watches();
         watches || self.output.reads(t) || t > self.horizon.end || self.horizon.steps.due(t).is_some()
     }
 
-    /// Computes the slopes at both ends of a half step with the slip memories at its start.
+    /// Computes the time derivatives at both ends of a half step with the slip memories at its start.
     fn fill_slopes(&self, state: &State, ends: [(f64, &[f64]); 2], slopes: &mut [Vec<f64>; 2]) {
         let eq = self.setting.plain(state);
         for ((t, y), slopes) in ends.into_iter().zip(slopes) {
@@ -367,7 +367,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.ledger.commit_blocks((self.setting.model, self.setting.layout), state)
     }
 
-    /// Evaluates the period ends in a half step. A constant step length of the drive ends the run.
+    /// Evaluates the period ends in a half step. A steady step length of the drive ends the run.
     fn take_periods(&mut self, state: &State, half: &Way<'_>) {
         while let Some(due) = self.horizon.steps.due(half.to.0) {
             let i = self.horizon.steps.coordinate;

@@ -1,7 +1,7 @@
 //! Rows and snapshots inside a step, from its dense output.
 //!
-//! Output does not change the trajectory. It is read from an accepted step, snapshots are copies, and evaluations for
-//! the dense output are not counted in the run.
+//! Output does not change the trajectory. Values come from an accepted step, snapshots are copies, and evaluations for the dense output are
+//! not counted in the run.
 
 use super::path::Growth;
 use super::{Located, Motion};
@@ -15,7 +15,7 @@ use stickslip_stepper::{Attempt, Completion};
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Writes the output that is due up to time `t`, s, the end of the step.
     ///
-    /// An event may have cut the step. A row at the time of an event shows the state there.
+    /// An event may have cut the step. A row at the time of an event contains the state at the event.
     #[inline(never)]
     pub(super) fn write(&mut self, state: &State, t: f64, record: &mut dyn Record) {
         // Without closed forms: a row shows every contact.
@@ -32,7 +32,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Reports turning points of u at the corner that has just been passed.
+    /// Reports turning points of the displacement u at the corner that has just been passed.
     #[inline(never)]
     pub(super) fn tell_corner_turns(&mut self, state: &State, record: &mut dyn Record) {
         let eq = self.setting.plain(state);
@@ -40,7 +40,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.tell_turns(&eq, state, state.t, |i, _| state.y[i], record);
     }
 
-    /// Whether u of any watched contact turns in the step.
+    /// Whether the displacement u of any watched contact has a turning point in the step.
     fn turns_by(&mut self, eq: &Equations<'_>, state: &State, t: f64) -> bool {
         let end = self.motion.solver.span().end;
         self.output.turns.notice(eq, (state.t, &state.y), (t, |i| end[i]), self.setting.tolerance)
@@ -82,7 +82,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Writes all components of the integrator at time t inside the step into `out`.
     ///
-    /// They come from the dense output. Where motions may decay within a step, they come from a separate step to t.
+    /// The components come from the dense output. If motions may decay within a step, they come from a separate step to t.
     fn visit(&mut self, state: &State, t: f64, out: &mut [f64]) {
         let eq = self.setting.equations(state, &self.interval);
         let Motion { solver, allowance, fades, .. } = &mut self.motion;
@@ -92,10 +92,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Returns copies of the slip memories at time t inside the step, as if the step ended there.
+    /// Returns copies of the slip memories at time t inside the step, as if the step ended at t.
     ///
-    /// `y` returns a component at time t. Displacements count from where the bodies started. Fails if a contact cannot
-    /// follow to that time because it leaves its row or is not finite; the snapshot is then omitted.
+    /// `y` returns a component at time t. Displacements are relative to the initial positions. Fails if a contact leaves its spring row up
+    /// to that time or is not finite; the snapshot is then omitted.
     #[inline(never)]
     pub(super) fn memories_at(
         &self,

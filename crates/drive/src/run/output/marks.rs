@@ -1,6 +1,6 @@
 //! Sample rows at times that a record requests, and the extents of body motions between them.
 //!
-//! Both are read from time steps like rows, but do not depend on the interval of the rows.
+//! Sample rows and extents come from time steps like regular rows, but do not depend on the interval of the regular rows.
 
 use crate::Model;
 use crate::equations::Equations;
@@ -9,17 +9,17 @@ use crate::record::{self, Extent, Record};
 use crate::scene::Axis;
 use crate::state::State;
 
-/// Largest relative distance from the requested time that counts as rounding.
+/// Largest relative distance between a time and the requested time that counts as rounding.
 pub(in crate::run) const SAME: f64 = 4.0 * f64::EPSILON;
 
 /// Time (s), position (m) and velocity (m/s) of a body.
 pub(in crate::run) type Point = [f64; 3];
 
-/// Next sample row, and the extents of the watched bodies since the last one.
+/// Next sample row, and the extents of the watched bodies since the last sample row.
 pub(in crate::run) struct Marks {
     /// Time of the next sample row, s; ∞ if there is none.
     due: f64,
-    /// Time from which on `due` counts as reached, s.
+    /// Time from which on the time `due` counts as reached, s.
     nearly: f64,
     /// Free coordinates whose extents the record requests.
     watched: [Option<Watched>; 2],
@@ -30,7 +30,7 @@ pub(in crate::run) struct Marks {
 #[derive(Clone, Copy)]
 struct Watched {
     coordinate: usize,
-    /// Last point read inside the current step.
+    /// Last point of the current step that has been included in the extent.
     inside: Option<Point>,
     /// Extent since the last sample row, including the shift of the origin.
     extent: Extent,
@@ -43,12 +43,12 @@ impl Marks {
         Self { due: never, nearly: never, watched: [None; 2], row: Vec::new() }
     }
 
-    /// Returns marks without any request, in the storage of these.
+    /// Returns a value without any request in the storage of this one.
     pub(in crate::run) fn renewed(self) -> Self {
         Self { row: self.row, ..Self::none() }
     }
 
-    /// Requests the first sample row and writes those that are due now. A resumed run does not write them again.
+    /// Requests the first sample row and writes sample rows that are due now, unless the run is resumed.
     pub(in crate::run) fn begin(
         &mut self,
         equations: &Equations<'_>,
@@ -75,19 +75,19 @@ impl Marks {
         self.end_step();
     }
 
-    /// Returns the time of the next sample row if it is at or before `t`; `t` itself if both agree within rounding.
+    /// Returns the time of the next sample row, if that is at or before `t`. A time that agrees with `t` within rounding is `t` itself.
     #[inline(always)]
     pub(in crate::run) fn due(&self, t: f64) -> Option<f64> {
         (t >= self.nearly).then(|| self.due.min(t))
     }
 
-    /// Whether the record requests any extent; then every step is read.
+    /// Whether the record requests the extent of any body, so that every step is evaluated.
     #[inline(always)]
     pub(in crate::run) fn watches(&self) -> bool {
         self.watched.iter().any(Option::is_some)
     }
 
-    /// Passes the sample row at time t in the current step to the record and requests the next one.
+    /// Passes the sample row at time t in the current step to the record and requests the next sample row.
     pub(in crate::run) fn write(
         &mut self,
         equations: &Equations<'_>,
@@ -110,7 +110,7 @@ impl Marks {
         self.ask(record);
     }
 
-    /// Extends the extents to a point in the current step, which starts at the state. `point` reads a coordinate.
+    /// Extends the extents up to a point in the current step, which starts at `state`. `point` returns this point of a coordinate.
     pub(in crate::run) fn pass(&mut self, state: &State, point: impl Fn(usize) -> Point) {
         for watched in self.watched.iter_mut().flatten() {
             let (i, to) = (watched.coordinate, point(watched.coordinate));
@@ -138,7 +138,7 @@ impl Marks {
         }
     }
 
-    /// Requests the next sample row. A time that is not later than the last one ends the sample rows.
+    /// Requests the next sample row. A requested time that is not later than the last one ends the sample rows.
     fn ask(&mut self, record: &mut dyn Record) {
         let next = record.next_mark().unwrap_or(f64::INFINITY);
         self.due = if next > self.due { next } else { f64::INFINITY };
@@ -146,7 +146,7 @@ impl Marks {
     }
 }
 
-/// Returns the extent of the cubic through positions and velocities of two points.
+/// Returns the extent of the cubic Hermite interpolant of positions and velocities at two points.
 fn extent([t0, x0, v0]: Point, [t1, x1, v1]: Point) -> Extent {
     let ends = || Extent::at(x0, t0).join(Extent::at(x1, t1));
     let h = t1 - t0;

@@ -1,8 +1,8 @@
-//! Gross slip of spring rows, reported to the record.
+//! Gross slip of spring rows, as events for the record.
 //!
-//! Changes of single springs are no events, even where they end steps. The start and the end of gross slip of a whole
-//! row are reported to the record; the run does not use them. Under a varying normal force they are reported at their
-//! own times, under a constant one at the end of the step.
+//! Changes of single springs are no events, even if they end steps. Start and end of gross slip of a whole row are reported to the record;
+//! the run does not use them. Under a varying normal force they are reported at their own times, under a constant normal force at the end
+//! of the step.
 
 use crate::contact::{Contact, Mode};
 use crate::event::{EventKind, Source};
@@ -63,7 +63,7 @@ impl Rows {
         Some((Source::Contact(c), kind))
     }
 
-    /// Returns the kind under which an event is reported. A reversal of a row in gross slip is reported as the end of its gross slip.
+    /// Returns the kind under which an event is reported: for a reversal of a row in gross slip, the end of gross slip.
     pub(in crate::run) fn told(&mut self, source: Source, kind: EventKind) -> EventKind {
         let row = self.0.iter_mut().find(|(c, slips)| *slips && source == Source::Contact(*c));
         match (row, kind) {

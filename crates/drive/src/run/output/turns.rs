@@ -1,10 +1,10 @@
-//! Turning points of u that end no contact law.
+//! Turning points of the contact displacement u at which no contact law ends.
 //!
 //! Under a constant normal force, u turns at events: reversals and ends of gross slip. Under a varying normal force, the velocities of the
-//! slip edges determine the law. Then u turns without an event in full stick. In a shrinking contact, u turns before the slip edge.
+//! slip edges determine the law. In full stick, u then turns without an event. In a shrinking contact, u turns before the slip edge does.
 //!
-//! These turning points are reported to a record that watches a body; the run does not use them. They are detected by
-//! the sign of u̇ at both ends of a step. Two turning points within one step are missed.
+//! These turning points are reported to a record that watches a body; the run does not use them. Turning points are detected by the sign of
+//! u̇ at both ends of a step. A pair of turning points within one step is missed.
 
 use crate::contact::{Contact, Guard};
 use crate::equations::Equations;
@@ -13,10 +13,10 @@ use crate::scene::Axis;
 use stickslip_contact::Engine;
 use stickslip_stepper::{Bracket, Point, root};
 
-/// Accuracy of the time of a turning point, as a fraction of the step.
+/// Error of the time of a turning point, as a fraction of the step.
 const NEAR: f64 = 1e-12;
 
-/// Contacts of a watched body whose u may turn without an event, and their turning points in a step.
+/// Contacts of a watched body whose displacement u may turn without an event, and their turning points in a step.
 #[derive(Debug, Default)]
 pub(in crate::run) struct Turns {
     contacts: Vec<usize>,
@@ -30,7 +30,7 @@ pub(in crate::run) struct Turns {
 }
 
 impl Contact {
-    /// Whether u may turn without an event: contact with a memory curve under a varying normal force.
+    /// Whether u may turn without an event, which happens for a contact with a memory curve under a varying normal force.
     pub(crate) fn turns_unseen(&self) -> bool {
         !self.inert && !self.is_constant() && matches!(self.engine, Engine::Curve)
     }
@@ -71,7 +71,7 @@ impl Turns {
         self.next = 0;
     }
 
-    /// Finds the contacts whose u turns between two times with given components. Returns whether there are any.
+    /// Finds the contacts whose u turns between two times with given components. Returns whether any such contact exists.
     pub(in crate::run) fn notice(
         &mut self,
         eq: &Equations<'_>,
@@ -88,7 +88,7 @@ impl Turns {
         !self.found.is_empty()
     }
 
-    /// Finds the contacts whose u̇ has changed sign up to time t, and stores the velocities there.
+    /// Finds the contacts whose u̇ has changed sign up to time t, and stores the velocities u̇ at t.
     fn compare(&mut self, eq: &Equations<'_>, (t, y): (f64, impl Fn(usize) -> f64), tolerance: f64) {
         for (&c, rate) in self.contacts.iter().zip(&mut self.rates) {
             let contact = &eq.model.contacts[c];
@@ -111,7 +111,7 @@ impl Turns {
         self.at = t;
     }
 
-    /// Computes the times of the turning points found between two times. `y` returns a component at a time.
+    /// Computes the times of the turning points found between two times. `y` returns a component at a given time.
     pub(in crate::run) fn locate(
         &mut self,
         eq: &Equations<'_>,
@@ -128,7 +128,7 @@ impl Turns {
         self.found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     }
 
-    /// Returns the next turning point up to time `until`, s: its time and its contact.
+    /// Returns time and contact of the next turning point up to time `until`, s.
     pub(in crate::run) fn take(&mut self, until: f64) -> Option<(f64, usize)> {
         let found = self.found.get(self.next).copied().filter(|(t, _)| *t <= until)?;
         self.next += 1;

@@ -53,7 +53,7 @@ fn command(of: &Generator, words: &mut Words<'_>) -> Option<Command> {
     of.takes(&command).then_some(command)
 }
 
-/// Reads cycles that turn within their period and have an allowed stroke.
+/// Reads a cycle of a generator. None unless it turns within its period and has an allowed stroke and frequency.
 fn span(of: &Generator, words: &mut Words<'_>) -> Option<Span> {
     let [origin, period, top, stroke] = [words.finite()?, words.finite()?, words.finite()?, words.finite()?];
     let (low, high) = of.strokes;

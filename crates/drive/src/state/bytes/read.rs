@@ -1,4 +1,4 @@
-//! Reading of a state, in the order of [`write`](super::write). Returns none for words that are not of this model.
+//! Reading of a state, in the order of [`write`](super::write). Functions return none for words that no state of the model has.
 
 use super::FIXED;
 use super::generated::generating;
@@ -92,7 +92,7 @@ fn mode(law: &Interface, words: &mut Words<'_>) -> Option<Mode> {
     })
 }
 
-/// Reads a block; its memory must have its initial length, as the block indexes it.
+/// Reads the state of a block. Its memory must have the initial length, because the block accesses it by index.
 fn block(model: &Model, wired: &Wired, words: &mut Words<'_>) -> Option<BlockState> {
     let law = usize::try_from(words.word()?).ok().filter(|law| *law < wired.block().laws())?;
     let (_, start) = wired.block().start(&model.signals().first_inputs(wired));
@@ -218,8 +218,7 @@ fn fixed(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Option
     })
 }
 
-/// Whether a fixed-step run can be at time t: between the last time of the grid and the next. Otherwise a step would be negative
-/// or endless.
+/// Whether a fixed-step run can be at time t, between two adjacent times of the grid. Otherwise a step would be negative or infinite.
 fn is_on(Grid { start, step, count }: Grid, t: f64) -> bool {
     let [last, next] = [count, count + 1.0].map(|count| start + count * step);
     let whole = count >= 0.0 && count.fract() == 0.0 && step > 0.0;

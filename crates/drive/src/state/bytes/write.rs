@@ -82,7 +82,7 @@ impl Page<'_> {
         }
     }
 
-    /// Writes the index of a piece. For inputs and generators, whose pieces have no index, writes its ends.
+    /// Writes the index of a waveform piece. Pieces of inputs and generators have no index; their data are written instead.
     fn piece(&mut self, waveform: &Waveform, piece: &Piece) {
         match (waveform.interpolation(), waveform.generator()) {
             (None, None) => self.0.push(piece.index),

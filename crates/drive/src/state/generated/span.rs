@@ -1,9 +1,9 @@
-//! Successive cycles of one form: their start and turning times.
+//! Successive cycles of a generator with equal parameters: their start and turning times.
 
 use crate::Piece;
 use crate::waveform::{Command, Cycle};
 
-/// Successive cycles of one form.
+/// Successive cycles of a generator with equal parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Span {
     /// Start of the first cycle, s.
@@ -17,12 +17,12 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    /// Returns the cycles of a command from a time (s).
+    /// Returns the cycles that a command produces from time `origin` (s).
     pub(super) fn of(cycle: Cycle, command: &Command, origin: f64) -> Self {
         Self { origin, period: command.period(), top: cycle.top(command), stroke: command.stroke }
     }
 
-    /// Whether both have equal cycles.
+    /// Whether the cycles of both spans are equal.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         (self.period, self.top, self.stroke) == (other.period, other.top, other.stroke)
     }

@@ -1,4 +1,4 @@
-//! Chirp: a sine with a linear frequency sweep, once.
+//! Chirp: a single sine with a linear frequency sweep.
 
 use super::Way;
 use crate::waveform::corners::{Corners, Leg};
@@ -25,12 +25,12 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Returns the number of turns after `s` (s), without the phase.
+    /// Returns the number of turns `s` seconds after the start, without the initial phase.
     fn turns(&self, s: f64) -> f64 {
         s * (self.from + 0.5 * (self.to - self.from) * (s / self.duration))
     }
 
-    /// Returns value and derivatives at `s` (s) after the start.
+    /// Returns value and derivatives `s` seconds after the start.
     pub(super) fn at(&self, s: f64) -> Sample {
         let turns = self.turns(s);
         // Whole turns are removed first, because 2π would magnify their rounding.
@@ -44,7 +44,7 @@ impl Sweep {
         }
     }
 
-    /// Returns one smooth piece that ends with a corner.
+    /// Returns the sweep as one smooth piece that ends with a corner.
     pub(super) fn course(self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check_single()?;
         let Self { amplitude, offset, phase, from, to, duration } = self;
@@ -78,7 +78,7 @@ impl Sweep {
         })
     }
 
-    /// Returns the extreme values: those of the sine if it reaches them, otherwise those of the ends.
+    /// Returns the smallest and the largest value: extremes of the sine if the sweep reaches them, otherwise values at the ends.
     fn range(&self) -> (f64, f64) {
         let size = self.amplitude.abs();
         // A negative amplitude shifts the extremes by half a turn.

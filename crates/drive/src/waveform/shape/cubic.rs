@@ -4,7 +4,7 @@ use crate::waveform::Sample;
 
 /// Cubic segment, given by the rates at its ends (per s).
 ///
-/// With the duration h and the mean rate Δ it is value₀ + s(r₀ + s(c + s d)), c = (3Δ - 2r₀ - r₁)/h, d = (r₀ + r₁ - 2Δ)/h²
+/// With the duration h and the mean rate Δ, the segment is value₀ + s(r₀ + s(c + s d)), c = (3Δ - 2r₀ - r₁)/h, d = (r₀ + r₁ - 2Δ)/h²
 /// (Hermite). The acceleration is constant if r₀ + r₁ = 2Δ; the jerk is 6d.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) struct Cubic {
@@ -21,8 +21,8 @@ impl Cubic {
         Self { rates: (-self.rates.1, -self.rates.0) }
     }
 
-    /// Returns value and derivatives at `t` (s). Each half is evaluated from its own end, so values there are exact and rounding
-    /// does not change a sign near 0.
+    /// Returns value and derivatives at `t` (s). Each half is evaluated from its own end of the segment. Values at the ends are thus exact,
+    /// and rounding does not change a sign near 0.
     pub(super) fn at(self, from: (f64, f64), to: (f64, f64), t: f64) -> Sample {
         let (first, last) = self.rates;
         let time = to.0 - from.0;

@@ -1,8 +1,8 @@
 //! Shape-preserving cubics through points, once or repeated.
 //!
-//! Between two points the value stays between theirs, and is monotonic where the points are. Rates at the points are weighted harmonic
-//! means of the adjacent slopes (Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 300, 1984). Rates at the ends are limited three-point
-//! differences (Moler, Numerical Computing with MATLAB, 2004, section 3.6). Only the second derivative jumps at a point.
+//! Between two points the value stays between their values, and is monotonic where the points are. Rates at the points are weighted
+//! harmonic means of the adjacent slopes (Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5, 300, 1984). Rates at the ends are limited
+//! three-point differences (Moler, Numerical Computing with MATLAB, 2004, section 3.6). Only the second derivative jumps at a point.
 
 use super::cubic::Cubic;
 use super::{Way, table};
@@ -11,7 +11,7 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::smooth;
 use crate::waveform::{Timing, WaveformError};
 
-/// Returns pieces between points; two points at one time are a jump.
+/// Returns the chain of pieces between points. Two points at one time are a jump.
 pub(super) fn course(
     points: &[(f64, f64)],
     smoothed: bool,
@@ -59,13 +59,13 @@ pub(super) fn course(
     })
 }
 
-/// Returns the timing of repeated points: their duration is the period, the first point the start.
+/// Returns the timing of repeated points: the period is their duration, and the waveform starts at the first point.
 pub(super) fn timing(points: &[(f64, f64)], given: &Timing) -> Timing {
     let [first, last] = [points.first(), points.last()].map(|end| end.map_or(0.0, |point| point.0));
     Timing { period: last - first, delay: given.delay + first, ..*given }
 }
 
-/// Returns the rates at start and end of each segment, per s; zeros for a jump.
+/// Returns the rates at start and end of each segment, per s. A segment that is a jump gets zeros.
 fn rates(points: &[(f64, f64)], closed: bool) -> Vec<(f64, f64)> {
     let mut rates = vec![(0.0, 0.0); points.len().saturating_sub(1)];
     let mut first = 0;
@@ -82,7 +82,7 @@ fn rates(points: &[(f64, f64)], closed: bool) -> Vec<(f64, f64)> {
     rates
 }
 
-/// Returns the rates at points without a jump, periodic if `closed`.
+/// Returns the rates at the points of a curve without jumps; with `closed`, the curve is periodic.
 fn of_run(run: &[(f64, f64)], closed: bool) -> Vec<f64> {
     let ways: Vec<(f64, f64)> = run
         .windows(2)
@@ -101,7 +101,7 @@ fn of_run(run: &[(f64, f64)], closed: bool) -> Vec<f64> {
     [start].into_iter().chain(inner).chain([end]).collect()
 }
 
-/// Returns the rate between two segments (duration, slope); 0 at an extreme.
+/// Returns the rate at a point between two segments (duration, slope); 0 at an extreme.
 fn between(left: (f64, f64), right: (f64, f64)) -> f64 {
     if left.1 * right.1 <= 0.0 {
         return 0.0;
@@ -110,7 +110,7 @@ fn between(left: (f64, f64), right: (f64, f64)) -> f64 {
     (first + last) / (first / left.1 + last / right.1)
 }
 
-/// Returns the rate at the end of a segment next to another, with the sign of its slope and at most three times as large.
+/// Returns the rate at the free end of a segment. It has the sign of the segment's slope and is at most three times as large.
 fn at_end(own: (f64, f64), other: (f64, f64)) -> f64 {
     let rate = ((2.0 * own.0 + other.0) * own.1 - own.0 * other.1) / (own.0 + other.0);
     if rate * own.1 <= 0.0 {

@@ -7,7 +7,7 @@ use crate::waveform::error::smooth;
 use crate::waveform::{Sample, Timing, WaveformError};
 use std::f64::consts::{PI, TAU};
 
-/// Returns curved pieces, two per period; one and a jump without a flyback.
+/// Returns cycloidal pieces, two per period; without a flyback one piece and a jump.
 pub(super) fn course(stroke: f64, flyback: f64, timing: &Timing) -> Result<Course, WaveformError> {
     let ways = Flyback::new(stroke, flyback, timing)?;
     smooth("stroke", stroke, stroke / ways.shortest * (TAU / ways.shortest))?;

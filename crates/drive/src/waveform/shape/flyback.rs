@@ -1,4 +1,4 @@
-//! Forward stroke and flyback, common to sawtooth and cycloid.
+//! Forward stroke and flyback, which sawtooth and cycloid have in common.
 
 use super::Way;
 use crate::waveform::corners::{Corners, Leg};
@@ -17,7 +17,7 @@ pub(super) struct Flyback {
 }
 
 impl Flyback {
-    /// Checks the flyback. Fails if it is negative or leaves no time for the forward stroke.
+    /// Checks the flyback. Fails if the flyback is negative or leaves no time for the forward stroke.
     pub(super) fn new(stroke: f64, flyback: f64, timing: &Timing) -> Result<Self, WaveformError> {
         timing.check_period()?;
         let period = timing.period;
@@ -28,7 +28,7 @@ impl Flyback {
         Ok(Self { stroke, rise, shortest: if flyback > 0.0 { flyback.min(rise) } else { rise } })
     }
 
-    /// Returns its chain with segments of this kind; `wave` is the duration of the shortest wave (s).
+    /// Returns the chain of pieces with segments of the form `way`; `wave` is the duration of the shortest wave (s).
     pub(super) fn course(&self, way: Way, wave: f64, timing: &Timing) -> Course {
         let Self { stroke, rise, .. } = *self;
         let legs =

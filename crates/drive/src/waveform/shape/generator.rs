@@ -1,7 +1,7 @@
 //! Generator: cycles whose stroke, frequency, direction and number a caller commands during the run.
 //!
-//! Frames of a control loop are longer than a flyback, so its corners cannot be supplied as an input. A generator makes exact
-//! cycles itself. Each cycle uses the parameters at its start until its end.
+//! Calls of a control loop are further apart than a flyback lasts, so an input cannot supply the corners of the flyback. A generator
+//! computes exact cycles itself. Each cycle uses the parameters at its start until its end.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
@@ -10,16 +10,16 @@ use crate::waveform::{Timing, WaveformError};
 
 /// Waveform of commanded cycles.
 ///
-/// A cycle begins and ends at 0 and reaches its stroke in between. The value is continuous and within [0, stroke]. Without steps,
-/// frequency or stroke it rests at 0; a command then begins a cycle at once.
+/// A cycle begins and ends at 0 and reaches its stroke in between. The value is continuous and within [0, stroke]. Without steps, frequency
+/// or stroke the generator rests at 0; from rest, a command begins a cycle at once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Generator {
     /// Form of a cycle.
     pub cycle: Cycle,
-    /// Command from t = 0. Without a caller the waveform is the sawtooth or triangle of these parameters.
+    /// Command from t = 0. Without later commands the waveform is the sawtooth or triangle with these parameters.
     pub initial: Command,
-    /// Smallest and largest stroke that may be commanded, in the unit of the driven quantity, of any sign. Checks before a run
-    /// cover the whole range.
+    /// Smallest and largest stroke that may be commanded, in the unit of the driven quantity, of any sign. Checks before a run cover this
+    /// whole range.
     pub strokes: (f64, f64),
     /// Smallest and largest frequency that may be commanded, Hz; at least 0, and small enough for the flyback.
     pub frequencies: (f64, f64),
@@ -28,12 +28,12 @@ pub struct Generator {
 /// Form of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cycle {
-    /// Linear from 0 to the stroke, linear back in the flyback; reversed in time for the backward direction.
+    /// Sawtooth: linear from 0 to the stroke, linear return in the flyback; for the backward direction reversed in time.
     Sawtooth {
         /// Duration of the fast stroke, s, above 0 and below the shortest period.
         flyback: f64,
     },
-    /// Linear from 0 to the stroke in half a period, linear back; the same in both directions.
+    /// Triangle: linear from 0 to the stroke in half a period, linear return; the same in both directions.
     Triangle,
 }
 
@@ -44,7 +44,7 @@ pub struct Command {
     pub stroke: f64,
     /// Frequency, Hz; 0 means rest.
     pub frequency: f64,
-    /// Direction of motion of a slider.
+    /// Direction in which a slider moves.
     pub heading: Heading,
     /// Number of cycles to begin.
     pub steps: Steps,
@@ -56,7 +56,7 @@ pub enum Heading {
     /// Slow forward stroke, fast return.
     #[default]
     Forward,
-    /// Reversed in time: fast forward stroke, slow return. The value stays within [0, stroke], unlike with a reversed sign.
+    /// Cycle reversed in time: fast forward stroke, slow return. The value stays within [0, stroke], unlike with a reversed sign.
     Backward,
 }
 
@@ -71,7 +71,7 @@ pub enum Steps {
 }
 
 impl Command {
-    /// Whether it causes no cycle: no steps, no stroke, or an infinite period.
+    /// Whether the command starts no cycle: no steps, no stroke, or an infinite period.
     pub(crate) fn is_idle(&self) -> bool {
         let none = self.steps == Steps::Left(0);
         none || self.stroke == 0.0 || !self.period().is_finite()
@@ -105,18 +105,18 @@ impl Cycle {
 }
 
 impl Generator {
-    /// Whether a command is within its ranges; NaN is not.
+    /// Whether a command is within the ranges of the generator; NaN is not.
     pub(crate) fn takes(&self, command: &Command) -> bool {
         let within = |value: f64, (low, high): (f64, f64)| value >= low && value <= high;
         within(command.stroke, self.strokes) && within(command.frequency, self.frequencies)
     }
 
-    /// Returns the range of its values for all commands.
+    /// Returns the range of the generator's values for all commands.
     fn range(&self) -> (f64, f64) {
         (self.strokes.0.min(0.0), self.strokes.1.max(0.0))
     }
 
-    /// Returns its timing without a caller.
+    /// Returns the timing of the generator without further commands.
     pub(super) fn timing(&self) -> Timing {
         let cycles = match self.initial.steps {
             Steps::Endless => None,
@@ -125,7 +125,7 @@ impl Generator {
         Timing { cycles, ..Timing::every(self.initial.period()) }
     }
 
-    /// Returns its chain without a caller: cycles of the initial command, or rest.
+    /// Returns the chain of pieces without further commands: cycles of the initial command, or rest.
     pub(super) fn course(&self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check_supplied()?;
         self.check()?;
@@ -163,7 +163,7 @@ impl Generator {
     }
 }
 
-/// Checks a range and a value in it.
+/// Checks a range, and whether it contains a value.
 fn bounds(key: &'static str, value: f64, (low, high): (f64, f64)) -> Result<(), WaveformError> {
     finite(key, value)?;
     finite(key, low)?;

@@ -18,7 +18,7 @@ pub struct Harmonic {
     pub phase: f64,
 }
 
-/// Returns value and derivatives of the sum; not inlined, because single sines are more frequent.
+/// Returns value and derivatives of the sum; never inlined, because single sines are more frequent.
 #[inline(never)]
 pub(super) fn at(terms: &[Harmonic], turn: Turn) -> Sample {
     terms.iter().map(|harmonic| turn.term(*harmonic)).fold(
@@ -31,7 +31,7 @@ pub(super) fn at(terms: &[Harmonic], turn: Turn) -> Sample {
     )
 }
 
-/// Returns one smooth piece from start to stop.
+/// Returns the sum as one smooth piece from start to stop.
 pub(super) fn course(terms: &[Harmonic], timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_period()?;
     check(terms, timing.curvature())?;
@@ -61,11 +61,11 @@ fn check(terms: &[Harmonic], curvature: f64) -> Result<(), WaveformError> {
     Ok(())
 }
 
-/// Largest number of grid points; above order 256 the bound becomes wider.
+/// Largest number of grid points in the search for extremes. Above order 256 the bounds therefore become wider.
 const MOST_POINTS: f64 = 262_144.0;
 
-/// Returns bounds of a sum of sines: the extremes on a grid with spacing δ, widened by δ²/8 times the largest curvature Σ
-/// |amplitude| order², at most Σ |amplitude|.
+/// Returns bounds of a sum of sines: the extremes on a grid with spacing δ, widened by δ²/8 times the largest curvature Σ |amplitude|
+/// order². The bounds are limited to ± Σ |amplitude|.
 fn range(terms: &[Harmonic]) -> (f64, f64) {
     let sum: f64 = terms.iter().map(|term| term.amplitude.abs()).sum();
     if let [_] = terms {

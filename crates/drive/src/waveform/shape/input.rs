@@ -7,12 +7,12 @@ use crate::waveform::{Timing, WaveformError};
 /// Interpolation of an input between values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Interpolation {
-    /// The value is constant until the caller gives another one, which is a jump.
+    /// Held: the value is constant until the caller gives another one, which is a jump.
     ///
-    /// In a jump contacts follow a straight path in zero time, and the work counts. The model refuses dampers whose length would jump.
+    /// In a jump contacts follow a straight path in zero time, and its work counts. The model refuses dampers whose length would jump.
     #[default]
     Held,
-    /// Linear from the present value to the value and time that the caller gives; then held.
+    /// Linear from the present value to the value and time given by the caller, then constant.
     Linear,
 }
 

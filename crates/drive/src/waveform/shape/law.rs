@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 /// Law of a piece.
 ///
-/// Laws with many parameters stay in the chain and are referred to by index, so that the pieces in states are small.
+/// Laws with many parameters are stored in the chain and referred to by index, so that the pieces in states are small.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) enum Law {
     /// Linear or constant.
@@ -25,10 +25,10 @@ pub(in crate::waveform) enum Law {
     Leg(Placed),
 }
 
-/// Piece whose law is a segment of its chain.
+/// Piece whose law is stored as a segment of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::waveform) struct Placed {
-    /// Start and end of the uncut segment, s.
+    /// Start and end of the complete segment, s.
     pub(in crate::waveform) from: f64,
     pub(in crate::waveform) to: f64,
     place: u32,
@@ -42,7 +42,7 @@ impl Placed {
 }
 
 impl Law {
-    /// Returns the law between two points (time, value) for the segment with this index in the chain.
+    /// Returns the law of the segment with index `place` in the chain, between two points (time, value).
     pub(in crate::waveform) fn between(way: Way, from: (f64, f64), to: (f64, f64), place: usize) -> Self {
         match way {
             Way::Straight => Self::Straight(Straight::between(from, to)),
@@ -53,7 +53,7 @@ impl Law {
         }
     }
 
-    /// Returns value and derivatives at `t` (s). None if the waveform must compute them.
+    /// Returns value and derivatives at `t` (s). None if the law is stored in the waveform, which must compute them.
     #[inline]
     pub(in crate::waveform) fn at(&self, t: f64) -> Option<Sample> {
         match self {
@@ -69,7 +69,7 @@ impl Law {
 pub(in crate::waveform) enum Way {
     Straight,
     Cycloid,
-    /// Cubic with rates at its ends, per s.
+    /// Cubic with given rates at both ends, per s.
     Cubic(Cubic),
     /// Sine sweep.
     Chirp(Sweep),
@@ -80,7 +80,7 @@ pub(in crate::waveform) enum Way {
 }
 
 impl Way {
-    /// Returns value and derivatives at `t` (s) between two points (time, value); exact at the end.
+    /// Returns value and derivatives at `t` (s) between two points (time, value); the value at the end is exact.
     pub(in crate::waveform) fn at(
         self,
         from: (f64, f64),
@@ -101,7 +101,7 @@ impl Way {
         }
     }
 
-    /// Returns the form reversed in time.
+    /// Returns the form of the segment reversed in time.
     pub(super) fn reversed(self) -> Self {
         match self {
             Self::Cubic(cubic) => Self::Cubic(cubic.reversed()),
@@ -111,7 +111,7 @@ impl Way {
     }
 }
 
-/// Sines that start anew with every run of a pattern.
+/// Sines whose time starts at 0 in every run of a pattern.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::waveform) struct Carrier {
     pub(super) sines: Sines,
@@ -120,7 +120,7 @@ pub(in crate::waveform) struct Carrier {
 }
 
 impl Carrier {
-    /// Returns value and derivatives at `time` (s) after a start.
+    /// Returns value and derivatives `time` seconds after the start of a run.
     pub(super) fn at(&self, time: f64, reversed: bool) -> Sample {
         let timing = Timing::every(self.period);
         if !reversed {
@@ -149,7 +149,7 @@ impl Sines {
         }
     }
 
-    /// Returns a bound of the third derivative, per s³: Σ |amplitude| (order ω)³, exact for a single sine.
+    /// Returns a bound on the third derivative, per s³: Σ |amplitude| (order ω)³, exact for a single sine.
     pub(in crate::waveform) fn jerk(&self, timing: &Timing) -> f64 {
         let of = |amplitude: f64, order: f64| amplitude.abs() * (order * TAU / timing.period).powi(3);
         match self {

@@ -1,8 +1,8 @@
 //! Rate-limited sawtooth.
 //!
-//! The requested sawtooth rises at rate s in the time T-τ and falls in the flyback τ. The output falls at the limit r and meets
-//! it in the next rise, at the time u = (S - rτ)/(r + s) after the end of the period. Then it follows to the top. All periods but
-//! the first are shortened by s·u in stroke, and the flyback takes τ + u.
+//! The requested sawtooth rises at rate s in the time T-τ and falls in the flyback τ. The output falls at the rate limit r and meets the
+//! requested sawtooth in the next rise, at the time u = (S - rτ)/(r + s) after the end of the period. Then the output follows the request
+//! to the top. Except in the first period, the stroke is reduced by s·u, and the flyback takes τ + u.
 
 use super::flyback::Flyback;
 use super::sawtooth;
@@ -12,7 +12,7 @@ use crate::waveform::error::{smooth, within};
 use crate::waveform::{Timing, WaveformError};
 use std::f64::consts::TAU;
 
-/// Returns linear pieces, two per period. Without a phase it starts at 0 and lags from its first flyback on; with a phase it
+/// Returns linear pieces, two per period. Without a phase the waveform starts at 0 and lags from its first flyback on; with a phase it
 /// starts in its periodic form.
 pub(super) fn course(stroke: f64, flyback: f64, rate: f64, timing: &Timing) -> Result<Course, WaveformError> {
     let ways = Flyback::new(stroke, flyback, timing)?;

@@ -1,8 +1,8 @@
 //! Parabola: constant acceleration from rest, a turn, and the mirrored motion.
 //!
-//! A slider sticks to the foot while the acceleration is below μF_N/m, and reaches the largest velocity that friction allows. It
-//! slips in the turn at the top, which may be a cusp. With stroke S, period T and turn τ the velocity at the turn is V = 4S/T,
-//! the acceleration 2V/(T-τ), that of the turn -2V/τ.
+//! A slider sticks to the moving foot while the acceleration is below μF_N/m, and thus reaches the largest velocity that friction allows.
+//! The slider slips during the turn at the stroke, which may be a cusp. With stroke S, period T and turn τ, the velocity at the turn is V =
+//! 4S/T. The acceleration is 2V/(T-τ), during the turn -2V/τ.
 
 use super::Way;
 use super::cubic::Cubic;
@@ -11,7 +11,7 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::smooth;
 use crate::waveform::{Timing, WaveformError};
 
-/// Returns parabolic pieces, three per period; two without a turn.
+/// Returns parabolic pieces, three per period; two if the turn has zero duration.
 pub(super) fn course(stroke: f64, turn: f64, timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_period()?;
     let period = timing.period;

@@ -14,7 +14,7 @@ pub enum Section {
     Run {
         /// Number of cycles, at least 1.
         cycles: u32,
-        /// Reversed in time: fast forward stroke and slow return. The values stay in the same range, unlike with a reversed sign.
+        /// Cycles reversed in time: fast forward stroke, slow return. Values stay in the same range, unlike with a reversed sign.
         reversed: bool,
     },
     /// Rest at the initial value of a cycle.
@@ -24,11 +24,11 @@ pub enum Section {
     },
 }
 
-/// Largest number of cycles in all runs together, as each stores its corners.
+/// Largest number of cycles in all runs together, because each cycle stores its corners.
 const MOST_CYCLES: f64 = 10_000.0;
 
 impl Section {
-    /// Returns its duration for this period of the shape, s.
+    /// Returns the duration of the section, s, for a given period of the shape.
     fn time(self, period: f64) -> f64 {
         match self {
             Self::Run { cycles, .. } => f64::from(cycles) * period,
@@ -37,13 +37,13 @@ impl Section {
     }
 }
 
-/// Returns the timing of the pattern: its period is that of all sections; its phase counts cycles of the shape.
+/// Returns the timing of the pattern. The period is the duration of all sections; the phase counts cycles of the shape.
 pub(super) fn timing(parts: &[Section], given: &Timing) -> Timing {
     let period: f64 = parts.iter().map(|part| part.time(given.period)).sum();
     Timing { period, phase: given.phase * (given.period / period), ..*given }
 }
 
-/// Returns the pieces of all cycles; a run of sines is one piece.
+/// Returns the pieces of all cycles of the pattern; a run of sines is one piece.
 pub(super) fn course(carrier: &Shape, parts: &[Section], timing: &Timing) -> Result<Course, WaveformError> {
     timing.check_period()?;
     let cycle = carrier.course(&Timing::every(timing.period))?;

@@ -1,7 +1,7 @@
-//! S-curve: a sawtooth whose strokes are from rest to rest with limited jerk.
+//! S-curve: a sawtooth with strokes from rest to rest and limited jerk.
 //!
-//! A stroke Δ of duration L has four phases of constant jerk J, each of duration τ. Between the second and the third its velocity
-//! is V = Δ/(L-2τ) = Jτ², the largest. Hence J = Δ/(τ²(L-2τ)); the largest acceleration is Jτ.
+//! A stroke Δ of duration L has four phases of constant jerk J, each of duration τ. Between the second and the third phase the velocity has
+//! its largest value V = Δ/(L-2τ) = Jτ². Hence J = Δ/(τ²(L-2τ)); the largest acceleration is Jτ.
 
 use super::Way;
 use super::cubic::Cubic;
@@ -11,10 +11,10 @@ use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{smooth, within};
 use crate::waveform::{Timing, WaveformError};
 
-/// Relative rounding by which the phases may exceed a stroke.
+/// Relative rounding error by which the phases may exceed the duration of a stroke.
 const ROUNDING: f64 = 1e-12;
 
-/// Returns cubic and linear pieces, five per stroke; four if the phases fill it.
+/// Returns cubic and linear pieces, five per stroke; four if the phases of constant jerk take the whole stroke.
 pub(super) fn course(
     stroke: f64,
     flyback: f64,

@@ -22,7 +22,7 @@ impl Sine {
         Sample { value: self.offset + term.value, ..term }
     }
 
-    /// Returns one smooth piece from start to stop.
+    /// Returns the sine as one smooth piece from start to stop.
     pub(super) fn course(self, timing: &Timing) -> Result<Course, WaveformError> {
         timing.check_period()?;
         let Self { amplitude, phase, offset } = self;

@@ -1,11 +1,11 @@
-//! Table: linear between points, constant before the first and after the last.
+//! Table: linear between points, constant before the first point and after the last.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{finite, smooth};
 use crate::waveform::{Timing, WaveformError};
 
-/// Returns linear pieces between points; two points at one time are a jump.
+/// Returns the chain of linear pieces between points. Two points at one time are a jump.
 pub(super) fn course(points: &[(f64, f64)], timing: &Timing) -> Result<Course, WaveformError> {
     check(points, timing)?;
     let ends = [points.first(), points.last()].map(|end| end.copied().unwrap_or_default());

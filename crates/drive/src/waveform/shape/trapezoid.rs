@@ -1,14 +1,14 @@
-//! Trapezoid: linear to the stroke, held, linear back, at rest.
+//! Trapezoid: linear rise to the stroke, hold, linear fall, rest.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};
 use crate::waveform::error::{smooth, within};
 use crate::waveform::{Timing, WaveformError};
 
-/// Relative rounding by which the durations may exceed a period.
+/// Relative rounding error by which the durations may exceed a period.
 const ROUNDING: f64 = 1e-12;
 
-/// Returns linear pieces, four per period; fewer if rise, hold, fall or rest are zero.
+/// Returns linear pieces, four per period; fewer if a duration is zero.
 pub(super) fn course(
     stroke: f64,
     [rise, hold, fall]: [f64; 3],

@@ -1,4 +1,4 @@
-//! Triangle: linear to the stroke in half a period, linear back.
+//! Triangle: linear to the stroke in half a period, then linear return.
 
 use crate::waveform::corners::{Corners, Leg};
 use crate::waveform::course::{Chain, Course};

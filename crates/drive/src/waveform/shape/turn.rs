@@ -1,10 +1,10 @@
-//! Phase angle of a waveform, and its sines.
+//! Phase angle of a waveform, and sine and cosine of angles.
 
 use super::harmonics::Harmonic;
 use crate::waveform::{Sample, Timing};
 use std::f64::consts::TAU;
 
-/// Phase angle of a waveform and its rate at one time.
+/// Phase angle of a waveform and the rate of this angle at one time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn {
     /// Angle, rad, between -π and π before the phase is added.
@@ -31,13 +31,13 @@ impl Turn {
     }
 }
 
-/// 3·2⁵¹; adding and subtracting it rounds a number below 2⁵¹ to an integer.
+/// 3·2⁵¹. Adding and subtracting this constant rounds a number below 2⁵¹ to an integer.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 /// Number of table cells in a turn.
 const CELLS: usize = 64;
-/// π/32, the width of a cell, as a sum; the first part has 33 bits, so its product with an integer below 2²⁰ is exact.
+/// π/32, the width of a cell, as a sum. The first part has 33 bits, so its product with an integer below 2²⁰ is exact.
 const CELL: [f64; 2] = [1.570_796_326_734_125_6 / 16.0, 6.077_100_506_506_192e-11 / 16.0];
-/// Largest angle for the table, rad.
+/// Largest angle for which the table is used, rad.
 const FAR: f64 = 1e5;
 /// sin(kπ/32) for a quarter of a turn, rounded from 40 digits.
 const QUARTER: [f64; 17] = [
@@ -76,7 +76,7 @@ const fn circle() -> [[f64; 2]; CELLS] {
     circle
 }
 
-/// Returns the nearest integer; beyond 2⁵¹ an integer nearby.
+/// Returns the nearest integer; for numbers beyond 2⁵¹ an integer close to the number.
 // Faster than a library function on processors without a rounding instruction.
 #[inline(always)]
 fn whole(x: f64) -> f64 {
@@ -85,7 +85,7 @@ fn whole(x: f64) -> f64 {
 
 /// Returns sine and cosine of an angle (rad), with errors below one unit in the last place of 1; exactly 0 and 1 at 0.
 ///
-/// The bits are the same on every machine.
+/// The bits of the result are the same on every machine.
 #[inline(always)]
 fn sin_cos(angle: f64) -> [f64; 2] {
     if angle.abs() < FAR { near(angle) } else { far(angle) }
@@ -97,8 +97,8 @@ fn far(angle: f64) -> [f64; 2] {
     math::sin_cos(angle).into()
 }
 
-/// Returns sine and cosine by the addition theorem from the middle of the nearest cell. The rest of the angle is at most π/64;
-/// its series up to r⁷ and r⁸ have errors below 5e-18.
+/// Returns sine and cosine by the addition theorem from the middle of the nearest cell. The rest r of the angle is at most π/64; the series
+/// up to r⁷ and r⁸ have errors below 5e-18.
 #[inline(always)]
 fn near(angle: f64) -> [f64; 2] {
     const PER_RADIAN: f64 = CELLS as f64 / TAU;

@@ -8,12 +8,12 @@ use stickslip_run::Watcher;
 use stickslip_scenario::{Scenario, ScenarioError};
 use thiserror::Error;
 
-/// Factor on the sum of all friction and other forces. If a load of this size is held, something other than friction holds it.
+/// Ratio of the largest test load to the sum of all forces. If the drive holds this load, a spring or another part holds it.
 const ENDLESS: f64 = 64.0;
-/// Uncertainty of the equilibrium of forces, as a fraction of the sum of friction and other forces. The equilibrium
-/// search allows a residual of 1e-9 per coordinate.
+/// Uncertainty of the force equilibrium, as a fraction of the sum of friction and other forces. The search for the equilibrium allows a
+/// residual of 1e-9 per coordinate.
 const RESOLVED: f64 = 4e-9;
-/// Holding forces below this fraction of that sum count as zero.
+/// Holding forces below this fraction of the sum of friction and other forces count as zero.
 const NOTHING: f64 = 1e-12;
 
 /// Holding force with its uncertainty.
@@ -23,7 +23,7 @@ pub struct Held {
     pub force: f64,
     /// Uncertainty of the load, N: half of the bracket plus the uncertainty of the equilibrium.
     pub half_width: f64,
-    /// Coordinate that gives way at larger loads.
+    /// Body and coordinate without equilibrium at larger loads.
     pub lost: Lost,
     /// Number of equilibrium searches.
     pub runs: u32,
@@ -39,7 +39,7 @@ pub struct Lost {
 }
 
 impl Lost {
-    /// Describes the motion of the body.
+    /// Returns a phrase that describes the motion of the body, such as `slider slides away`.
     #[must_use]
     pub fn words(&self) -> String {
         let does = match self.axis {
@@ -99,12 +99,12 @@ impl Still {
     /// Creates the drive from a scenario; `body` is the index of the loaded body.
     pub(super) fn new(mut scenario: Scenario, body: usize) -> Self {
         scenario.scene.start = Start::Equilibrium;
-        // There is no time integration, so a time step that is too long for a run does not matter.
+        // There is no time integration, so a time step that is too long for a run has no effect.
         let plan = Plan { stepper: Stepper::Event { tolerance: WALK_TOLERANCE }, ..scenario.plan };
         Self { scenario, plan, body }
     }
 
-    /// Finds the largest load with an equilibrium, to a relative tolerance. `sense` is its direction along x, 1 or -1.
+    /// Finds the largest load with an equilibrium, to a relative tolerance. `sense` is the direction of the load along x, 1 or -1.
     ///
     /// # Errors
     /// Fails if the drive is not held without load, the load is not limited by friction, or the watcher interrupts.
@@ -129,7 +129,7 @@ impl Still {
         if try_at(ENDLESS * scale)?.is_some() {
             return Err(Holdless::Endless { load: ENDLESS * scale });
         }
-        // Start at the scale of the friction force, so that the bracket is never wider than its position.
+        // Start at the sum of all forces and double or halve the load, so that the bracket is not wider than its lower end.
         let mut still = 2.0 * scale;
         while try_at(still)?.is_some() {
             still *= 2.0;
@@ -150,7 +150,7 @@ impl Still {
         lost.map_or(Err(Holdless::NotRun), |lost| Ok(Held { force, half_width, lost, runs }))
     }
 
-    /// Returns the coordinate that gives way under a load, or `None` if the load is held.
+    /// Returns the coordinate without equilibrium under a load, or `None` if the drive holds the load.
     fn gives_way(&self, load: f64) -> Result<Option<Lost>, Holdless> {
         let mut scene = self.scenario.scene.clone();
         if load != 0.0 {
@@ -162,7 +162,7 @@ impl Still {
         }
     }
 
-    /// Returns the coordinate without equilibrium that an error reports.
+    /// Returns the coordinate without equilibrium from the error that reports it.
     ///
     /// # Errors
     /// Fails if the error has another cause.

@@ -94,11 +94,11 @@ pub fn json(holding: &Holding, points: &[Point]) -> String {
     serde_json::to_string(&report(holding, points)).unwrap_or_default()
 }
 
-/// Writes the table, `curve.json` and plots into a folder, as [`crate::curve::write`] does. Returns the names.
+/// Writes the table, `curve.json` and plots into a folder, as [`crate::curve::write`] does. Returns the file names.
 ///
 /// # Errors
-/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
-/// names.
+/// Returns an error of the operating system. Existing files remain unchanged, unless the error occurs while new files are renamed to their
+/// final names.
 pub fn write(
     folder: Folder,
     (holding, points): (&Holding, &[Point]),

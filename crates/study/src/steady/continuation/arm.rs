@@ -1,8 +1,8 @@
 //! Continuation of a branch in one direction.
 //!
-//! A step follows the tangent and is corrected back to the branch. It is shortened if the branch bends or no orbit is found, and
-//! lengthened after an easy correction. If the periods at both ends have the same events, test functions detect bifurcations in between.
-//! Otherwise the event is located and the branch continues beyond it.
+//! A step follows the tangent and is corrected back to the branch. The step is shortened if the branch bends or no orbit is found, and
+//! lengthened after an easy correction. If the orbits at both ends of a step have the same events, test functions detect bifurcations in
+//! between. Otherwise the event is located and the branch continues beyond the event.
 
 use super::bifurcation::Mark;
 use super::corrector::{Corrected, Wanted, correct};
@@ -14,23 +14,23 @@ use super::written::Written;
 use crate::journal::Journal;
 use serde::{Deserialize, Serialize};
 
-/// Step sizes, relative to the range of the parameter: first, longest, shortest.
+/// Step sizes, as fractions of the parameter range: first, longest, shortest.
 const FIRST: f64 = 1.0 / 64.0;
 const LONGEST: f64 = 1.0 / 32.0;
 const SHORTEST: f64 = 1e-9;
-/// Smallest cosine of the angle between successive tangents. It does not apply to steps shorter than `ANY`.
+/// Smallest cosine of the angle between successive tangents. Steps shorter than `ANY` are exempt from this limit.
 const TURNS: f64 = 0.9;
 const ANY: f64 = 1e-6;
-/// Distance from the end of the range, relative to the range, at which it counts as reached.
+/// Distance from the end of the range, as a fraction of the range, at which the end counts as reached.
 const AT: f64 = 1e-12;
-/// Largest distance between predicted and corrected orbit, in steps.
+/// Largest distance between predicted and corrected orbit, as a multiple of the step size.
 const ASTRAY: f64 = 0.5;
 /// Number of corrector iterations up to which a step counts as easy.
 const EASY: u32 = 4;
 /// A new instant of the Poincaré section is chosen if its distance to an event is below this fraction of the interval between events.
 const NEAR: f64 = 0.2;
-/// Smallest change of the parameter along the branch at which a new instant can be chosen. Below it, the direction of
-/// the branch would be ambiguous.
+/// Smallest change of the parameter along the branch at which a new instant can be chosen. At smaller changes, the direction of the branch
+/// would be ambiguous.
 const TURNING: f64 = 0.02;
 
 /// Reason for the end of a branch.
@@ -75,11 +75,11 @@ pub(super) struct Walk<'a> {
     pub(super) range: [f64; 2],
     /// Maximum number of points.
     most: usize,
-    /// Accuracy of special points, relative to the range.
+    /// Accuracy of special points, as a fraction of the parameter range.
     pub(super) accuracy: f64,
-    /// Receives the number of points.
+    /// Receives the number of points in this direction.
     told: &'a dyn Fn(usize),
-    /// Parameter values of all located events, including those cancelled by the next one.
+    /// Parameter values of all located events, including events that are cancelled by the next event.
     pub(super) passed: Vec<f64>,
     pub(super) arm: Arm,
 }
@@ -119,7 +119,7 @@ impl<'a> Walk<'a> {
             self.arm.points.extend(points);
             marks.into_iter().for_each(|mark| self.add(mark));
             (self.told)(self.arm.points.len());
-            // An unreadable state belongs to another model.
+            // A state that cannot be read belongs to another model.
             let end =
                 end.map_or_else(|| to.read(self.bench).ok_or(End::Lost("damaged journal".to_owned())), Err);
             self.bench.apart.set(apart);
@@ -189,7 +189,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Returns the end of the range ahead and its distance along the tangent.
+    /// Returns the end of the range in the direction of the branch and the distance to this end along the tangent.
     fn end_of(&self, here: &Standing) -> (f64, f64) {
         let end = if here.pace() < 0.0 { self.range[0] } else { self.range[1] };
         (end, (end - here.point.value) / self.bench.span / here.pace())
@@ -200,7 +200,7 @@ impl<'a> Walk<'a> {
         self.end_of(here).1 * here.pace().abs() <= AT
     }
 
-    /// Returns the step size, limited to the end of the range, and that end if the step reaches it.
+    /// Returns the step size, limited by the end of the range. Also returns this end if the step reaches it.
     fn aim(&self, here: &Standing, length: f64) -> (f64, Option<f64>) {
         let (end, left) = self.end_of(here);
         if length >= left { (left, Some(end)) } else { (length, None) }
@@ -216,7 +216,7 @@ impl<'a> Walk<'a> {
         let wanted = Wanted { to, row: &row };
         let corrected = correct(self.bench, (&here.place, &here.slopes), &wanted)?;
         let period = Period::of(self.bench, &corrected.place)?;
-        // Events bend the branch and are located separately.
+        // Events bend the branch and are located separately, so the check applies to orbits with the same events.
         let astray = self.measure.length(&(&corrected.gone - &wanted.to)) > ASTRAY * length;
         if astray && length > ANY && period.happened == here.happened {
             return Err(Trouble::Bends);
@@ -256,14 +256,14 @@ impl<'a> Walk<'a> {
         Ok(next)
     }
 
-    /// Returns the reason that the body named in `figures` slides away.
+    /// Returns the end reason that the body named in `figures` slides away.
     pub(super) fn sliding(&self) -> End {
         let scenario = &self.bench.job.scenario;
         let body = scenario.figures.body.and_then(|body| scenario.scene.bodies.get(body));
         End::SlidesAway(body.map_or_else(String::new, |body| body.name.clone()))
     }
 
-    /// Returns the distance along the tangent of an orbit at the end of the range.
+    /// Returns the distance along the tangent to an orbit at the end of the range.
     fn reach(&self, here: &Standing, next: &Standing) -> f64 {
         (next.point.value - here.point.value) / self.bench.span / here.pace()
     }
@@ -273,7 +273,7 @@ impl<'a> Walk<'a> {
         (self.told)(self.arm.points.len());
     }
 
-    /// Returns the same orbit with the Poincaré section at the instant farthest from events.
+    /// Returns an orbit with its Poincaré section moved to the instant farthest from events.
     fn another_moment(&mut self, here: &Standing) -> Option<Standing> {
         if here.pace().abs() < TURNING {
             return None;
@@ -283,7 +283,7 @@ impl<'a> Walk<'a> {
         let row = by_value(place.fixed.defect.len(), here.pace().signum());
         let mut there = Standing::of(self.bench, place, period, (Some(self.measure), &row)).ok()?;
         there.point.piece = here.point.piece;
-        // The simulated periods may have left an unstable orbit.
+        // The simulated periods may have left an unstable orbit, so the orbit is corrected.
         let probe = self.probe(&there, 0.0, Some(here.point.value)).ok()?;
         if probe.corrected.steps > 0 {
             there = self.stand(&there, probe).ok()?;
@@ -291,7 +291,7 @@ impl<'a> Walk<'a> {
         if there.margin <= here.margin {
             return None;
         }
-        // An event at the previous instant was counted once too often, or not at all.
+        // An event at the previous instant may have been counted twice or not at all, so differences are recorded.
         self.event(here.pace(), here, (there.point.value, &there.happened, there.point.is_stable()));
         Some(there)
     }

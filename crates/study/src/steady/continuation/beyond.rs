@@ -1,4 +1,4 @@
-//! Search for the branch beyond a point where even the shortest step fails: the drive is simulated a small distance beyond.
+//! Search for the branch beyond a point where even the shortest step fails, by simulation at a parameter value slightly beyond.
 
 use super::arm::{End, Walk};
 use super::corrector::ROUNDING;
@@ -10,20 +10,20 @@ use crate::steady::{Options, SteadyError, moment, named};
 use nalgebra::DVector;
 use stickslip_drive::scene::Axis;
 
-/// Distances beyond the end at which the branch is searched for, relative to the range.
+/// Distances from the last orbit at which the branch is searched for, as fractions of the parameter range.
 const BEYOND: [f64; 5] = [1e-8, 1e-6, 1e-5, 1e-4, 1e-3];
-/// Largest difference of velocities at which two orbits belong to the same branch, relative to the largest velocity of
-/// the body. `MOMENTS` is the number of instants compared.
+/// Largest difference of velocities at which two orbits belong to the same branch, relative to the largest velocity of the body. `MOMENTS`
+/// is the number of instants at which velocities are compared.
 const ALIKE: f64 = 1e-2;
 const MOMENTS: u32 = 8;
 /// Maximum number of periods of one search.
 const SEARCH: u32 = 500;
-/// Distances beyond the end at which sliding is examined, relative to the range, and maximum number of periods.
+/// Distances from the last orbit at which sliding is examined, as fractions of the parameter range, and maximum number of periods.
 const AWAY: [f64; 3] = [1e-6, 1e-4, 1e-3];
 const SLIDES: u32 = 64;
 /// Smallest relative increase of the displacement per period that counts as acceleration.
 const FASTER: f64 = 1e-9;
-/// Rounding error of a period above which the branch ends: a part of the defect that is accepted as zero.
+/// Rounding error of a period above which the branch ends, as a part of the defect that is accepted as zero.
 const ROUNDED: f64 = 0.1 * ROUNDING;
 const AXES: [Axis; 3] = [Axis::X, Axis::Z, Axis::Pitch];
 
@@ -53,13 +53,13 @@ impl Walk<'_> {
         Err(End::Lost(format!("{trouble}; beyond, {}", nearest.unwrap_or_default())))
     }
 
-    /// Returns the displacement per period in natural scales.
+    /// Returns the largest displacement per period of an orbit, in natural scales.
     fn lengths(&self, of: &Standing) -> Option<f64> {
         let map = self.bench.map_at(&of.place).ok()?;
         Some(map.reach(&of.place.fixed.image))
     }
 
-    /// Finds the orbit to which the drive converges at a distance beyond, if it continues the branch.
+    /// Finds the orbit to which the drive converges at a distance beyond the last orbit, if the found orbit continues the branch.
     fn anew(&mut self, here: &Standing, away: f64) -> Result<Standing, End> {
         let sense = here.pace().signum();
         let value = self.within(here, away).ok_or_else(|| End::Lost("the range ends".to_owned()))?;
@@ -78,7 +78,7 @@ impl Walk<'_> {
         drop(map);
         let period = Period::of(self.bench, &place).map_err(other)?;
         if !still.is_empty() {
-            // A disturbance of a permanently stuck region is neutral.
+            // A disturbance of a permanently stuck region neither grows nor decays, so the orbit counts as stable.
             self.event(here.pace(), here, (value, &period.happened, true));
             return Err(End::Shakedown(named(&place.variant.drive.model, &still)));
         }
@@ -97,19 +97,19 @@ impl Walk<'_> {
         Ok(next)
     }
 
-    /// Returns the value at a distance beyond, if it is in the range.
+    /// Returns the parameter value at a distance beyond an orbit, if this value is within the range.
     fn within(&self, here: &Standing, away: f64) -> Option<f64> {
         let value = here.point.value + here.pace().signum() * away * self.bench.span;
         (self.range[0]..=self.range[1]).contains(&value).then_some(value)
     }
 
-    /// Returns whether the body named in `figures` slides and accelerates a small distance beyond.
+    /// Returns whether the body named in `figures` slides and accelerates at a parameter value slightly beyond an orbit.
     fn slides_away(&self, here: &Standing) -> bool {
         let beyond = AWAY.iter().filter_map(|away| self.within(here, *away));
         beyond.map(|value| self.slides(here, value)).any(|slides| matches!(slides, Ok(true)))
     }
 
-    /// Returns whether the body slides and accelerates at a value, starting from an orbit.
+    /// Returns whether the body named in `figures` slides and accelerates at a parameter value, starting from an orbit.
     fn slides(&self, here: &Standing, value: f64) -> Result<bool, Trouble> {
         let variant = self.bench.variant(value)?;
         let Some(body) = variant.job.scenario.figures.body else { return Ok(false) };
@@ -134,7 +134,7 @@ impl Walk<'_> {
         Ok(false)
     }
 
-    /// Returns whether all bodies have nearly the same velocities during the period.
+    /// Returns whether all bodies have nearly the same velocities in two orbits during the period.
     fn is_alike(&self, here: &Standing, next: &Standing) -> Result<bool, Trouble> {
         let [one, other] = [self.speeds(here)?, self.speeds(next)?];
         let mut pairs = one.into_iter().zip(other);

@@ -1,9 +1,9 @@
-//! Bifurcations of a branch, and the test functions that are zero there.
+//! Bifurcations of a branch, and the test functions that are zero at bifurcations.
 //!
-//! * Fold: the parameter has an extremum along the branch, so its component of the tangent is 0; a multiplier is 1.
+//! * Fold: the parameter has an extremum along the branch, so the tangent has no component along the parameter; a multiplier is 1.
 //! * Period doubling: a multiplier is -1, so ∏(1 + λ) = 0.
-//! * Neimark–Sacker: a complex pair is on the unit circle, so ∏(λᵢλⱼ - 1) = 0 over all pairs i < j. The product is also
-//!   zero for real λᵢ = 1/λⱼ, which is no bifurcation.
+//! * Neimark–Sacker: a complex pair is on the unit circle, so ∏(λᵢλⱼ - 1) = 0 over all pairs i < j. The product is also zero for real λᵢ =
+//!   1/λⱼ, which is not a bifurcation.
 //! * Branching: a multiplier is 1 without a fold; another branch crosses. The determinant of the derivatives with
 //!   respect to all unknowns is 0.
 
@@ -14,15 +14,15 @@ use crate::steady::Multiplier;
 use nalgebra::{Complex, ComplexField};
 use serde::{Deserialize, Serialize};
 
-/// Largest distance of a multiplier from its condition at a located bifurcation.
+/// Largest distance of a multiplier from the value that it must have at a located bifurcation.
 const THERE: f64 = 1e-2;
-/// Maximum number of evaluations.
+/// Maximum number of evaluations of the root search.
 const MOST: u32 = 60;
 
 /// Type of a special point of a branch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Bifurcation {
-    /// The branch turns back.
+    /// The branch turns back: the parameter has an extremum along the branch.
     Fold,
     /// An orbit of twice the period branches off.
     PeriodDoubling,
@@ -33,8 +33,8 @@ pub enum Bifurcation {
     },
     /// Another branch of the same period crosses.
     Branching,
-    /// The derivatives of the Poincaré map jump. If two events change their order, they are given by source and kind,
-    /// in their order below this value.
+    /// The derivatives of the Poincaré map jump. If two events exchange their order, the events are given by source and kind, in the order
+    /// below this parameter value.
     Break(Option<[(String, String); 2]>),
     /// An event appears in a period or vanishes.
     Event(Vec<Change>),
@@ -45,13 +45,13 @@ pub enum Bifurcation {
 pub struct Mark {
     /// Type of the point.
     pub kind: Bifurcation,
-    /// Value of the parameter, SI: midpoint of the bracket.
+    /// Value of the parameter at the special point, SI: midpoint of the bracket.
     pub value: f64,
-    /// Half-width of the bracket.
+    /// Half of the width of the bracket that contains the parameter value.
     pub half_width: f64,
-    /// Step length at this point, m.
+    /// Step length at the special point, m.
     pub step: Option<f64>,
-    /// Stability of the orbits below and above this value. For a fold: before and after it along the branch.
+    /// Stability of the orbits below and above the parameter value; at a fold, before and after the fold along the branch.
     pub stable: [bool; 2],
 }
 
@@ -132,8 +132,8 @@ impl Test {
         }
     }
 
-    /// Returns whether a multiplier meets the condition of the bifurcation. If multipliers jump, the test function may
-    /// change sign without a zero.
+    /// Returns whether a multiplier meets the condition of the bifurcation. If multipliers jump, the test function may change sign without
+    /// a zero.
     pub(super) fn is_met(self, standing: &Standing) -> bool {
         let values = eigenvalues(&standing.point.multipliers);
         match self {
@@ -143,14 +143,14 @@ impl Test {
         }
     }
 
-    /// Returns whether the test function is zero within its error: an undamped pair stays on the unit circle and does not cross it.
+    /// Returns whether the test function is zero within its error, because an undamped pair of multipliers stays on the unit circle.
     pub(super) fn is_idle(self, standing: &Standing) -> bool {
         let multipliers = &standing.point.multipliers;
         self == Self::NeimarkSacker
             && multipliers.iter().any(|it| it.im != 0.0 && (it.modulus() - 1.0).abs() <= it.error)
     }
 
-    /// Returns the bifurcation at a zero of the test function. Returns `None` if there is none.
+    /// Returns the bifurcation at a zero of the test function. Returns `None` if the zero is no bifurcation.
     pub(super) fn kind(self, standing: &Standing) -> Option<Bifurcation> {
         match self {
             Self::Fold => Some(Bifurcation::Fold),
@@ -169,12 +169,12 @@ impl Test {
     }
 }
 
-/// Returns ∏(1 - λ). It changes sign where the branch turns back: through 0 at a fold, by a jump at an event.
+/// Returns ∏(1 - λ). This product changes sign where the branch turns back: through 0 at a fold, by a jump at an event.
 pub(super) fn turn(standing: &Standing) -> f64 {
     eigenvalues(&standing.point.multipliers).iter().map(|value| 1.0 - value).product::<Complex<f64>>().re
 }
 
-/// Returns all eigenvalues, with both of each complex pair.
+/// Returns all eigenvalues, including both eigenvalues of each complex pair.
 fn eigenvalues(multipliers: &[Multiplier]) -> Vec<Complex<f64>> {
     let both = |multiplier: &Multiplier| {
         let value = Complex::new(multiplier.re, multiplier.im);
@@ -189,7 +189,7 @@ fn pairs(values: &[Complex<f64>]) -> impl Iterator<Item = [Complex<f64>; 2]> {
 
 /// Finds a zero of a function between two points with values of opposite sign, by regula falsi (Illinois variant).
 ///
-/// Ends when the bracket is at most `width` wide. Returns the bracket and the data of the best evaluation.
+/// The search ends when the bracket is at most `width` wide. Returns the bracket and the data of the best evaluation.
 pub(super) fn root<T, E>(
     (mut low, mut at_low): (f64, f64),
     (mut high, mut at_high): (f64, f64),
@@ -202,7 +202,7 @@ pub(super) fn root<T, E>(
             break;
         }
         let guess = low - at_low * (high - low) / (at_high - at_low);
-        // Keeps a distance from the ends of the bracket, to narrow it from the other side, too.
+        // The guess keeps a distance from the ends of the bracket, so that both ends approach the zero.
         let aside = 0.45 * width;
         let guess = if guess.is_finite() { guess } else { 0.5 * (low + high) };
         let guess = guess.clamp(low + aside, high - aside);

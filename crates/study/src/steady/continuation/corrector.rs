@@ -1,8 +1,8 @@
 //! Corrector of the continuation: Newton's method for state and parameter together.
 //!
-//! Solves P(s, q) - s = 0 with one additional condition, r·(z - z₀) = 0 for all unknowns z = (s, q). The condition
-//! fixes either the length along the tangent or the parameter. Broyden's
-//! update corrects the Jacobian of the last point; a new Jacobian is computed if the convergence is slow.
+//! Solves P(s, q) - s = 0 with one additional condition, r·(z - z₀) = 0 for all unknowns z = (s, q). The condition fixes either the length
+//! along the tangent or the parameter. Broyden's update corrects the Jacobian of the last point; a new Jacobian is computed if the
+//! convergence is slow.
 
 use super::error::Trouble;
 use super::place::{Bench, Place, Slopes};
@@ -23,7 +23,7 @@ const MET: f64 = 1e-13;
 
 /// Target of the corrector.
 pub(super) struct Wanted<'a> {
-    /// Predicted change of the unknowns: state, then parameter relative to its range.
+    /// Predicted change of the unknowns: state, then parameter as a fraction of its range.
     pub(super) to: DVector<f64>,
     /// Row vector of the additional condition.
     pub(super) row: &'a DVector<f64>,
@@ -32,13 +32,13 @@ pub(super) struct Wanted<'a> {
 /// Result of the corrector.
 pub(super) struct Corrected {
     pub(super) place: Place,
-    /// Change of the unknowns.
+    /// Total change of the unknowns by the corrector.
     pub(super) gone: DVector<f64>,
     /// Number of iterations.
     pub(super) steps: u32,
 }
 
-/// Returns the derivatives of the defect with respect to all unknowns, with the row of the condition below.
+/// Returns the derivatives of the defect with respect to all unknowns; the last row is the additional condition.
 pub(super) fn matrix(slopes: &Slopes, row: &DVector<f64>) -> DMatrix<f64> {
     let count = slopes.by_value.len();
     DMatrix::from_fn(count + 1, count + 1, |i, j| match (i < count, j < count) {
@@ -48,10 +48,10 @@ pub(super) fn matrix(slopes: &Slopes, row: &DVector<f64>) -> DMatrix<f64> {
     })
 }
 
-/// Iterates from a point with known derivatives to the target.
+/// Iterates from a point with known derivatives until defect and additional condition are zero.
 ///
 /// # Errors
-/// Fails if the iteration diverges, or the unknowns change.
+/// Fails if the iteration diverges, or the number of unknowns changes.
 pub(super) fn correct(
     bench: &Bench<'_>,
     (from, slopes): (&Place, &Slopes),
@@ -88,7 +88,7 @@ pub(super) fn correct(
     Err(Trouble::Diverged)
 }
 
-/// Returns the point after a step. Memory outside of the map is taken from the image, which is newer.
+/// Returns the point after a step. Memory outside of the Poincaré map is taken from the image, which is the state one period later.
 fn moved(bench: &Bench<'_>, place: &Place, step: &DVector<f64>) -> Result<Place, Trouble> {
     let count = place.fixed.defect.len();
     let (along, by) = (step.rows(0, count), step[count]);
@@ -102,7 +102,7 @@ fn moved(bench: &Bench<'_>, place: &Place, step: &DVector<f64>) -> Result<Place,
     if next.fixed.defect.len() == count { Ok(next) } else { Err(Trouble::OtherForm) }
 }
 
-/// Broyden's update of the rows of the defect.
+/// Applies Broyden's update to the rows of the defect in the Jacobian.
 fn mend(jacobian: &mut DMatrix<f64>, step: &DVector<f64>, (before, after): (&DVector<f64>, &DVector<f64>)) {
     let (count, length) = (before.len(), step.norm_squared());
     if length > 0.0 {

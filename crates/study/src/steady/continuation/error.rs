@@ -4,13 +4,13 @@ use crate::steady::SteadyError;
 use stickslip_scenario::ScenarioError;
 use thiserror::Error;
 
-/// Reason why there is no branch.
+/// Reason why a branch cannot be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ContinuationError {
     /// The key path does not name a number that can be varied continuously.
     #[error(transparent)]
     Path(#[from] ScenarioError),
-    /// The scenario does not give the parameter.
+    /// The scenario does not give a value to the parameter.
     #[error(
         "{0} has no value in this scenario\n   help: give the start value of the branch, such as --set {0}=…"
     )]
@@ -68,7 +68,7 @@ pub enum ContinuationError {
         /// Name of the second waveform.
         second: String,
     },
-    /// There is an orbit at the start value, but no branch.
+    /// A periodic orbit exists at the start value, but no branch starts from it.
     #[error("no branch starts from the periodic orbit at {path} = {present} {unit}: {why}")]
     NoBranch {
         /// Key path of the parameter.
@@ -99,11 +99,11 @@ pub enum ContinuationError {
 /// Reason why a continuation step failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub(super) enum Trouble {
-    /// The value does not give a valid scenario.
+    /// The parameter value gives an invalid scenario.
     #[error("refused: {0}")]
     Refused(String),
-    /// The slip memory has another number of corners, or the model has other unknowns.
-    #[error("the slip memories have another structure")]
+    /// The slip memory has another number of breakpoints, or the model has other unknowns.
+    #[error("the Poincaré map has another number of unknowns")]
     OtherForm,
     /// No orbit was found.
     #[error("no orbit was found")]
@@ -112,15 +112,15 @@ pub(super) enum Trouble {
     #[error("the branch bends")]
     Bends,
     /// The body named in `figures` slides during the whole period at any velocity.
-    #[error("any speed does")]
+    #[error("any speed is possible")]
     Slides,
-    /// A period failed, or the drive has no orbit.
+    /// A period could not be simulated, or the drive has no periodic orbit.
     #[error(transparent)]
     Steady(#[from] SteadyError),
 }
 
 impl Trouble {
-    /// Returns whether a shorter step would not help.
+    /// Returns whether a shorter continuation step would fail, too.
     pub(super) fn is_final(&self) -> bool {
         matches!(self, Self::Steady(SteadyError::Interrupted(_)))
     }

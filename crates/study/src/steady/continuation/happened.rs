@@ -31,9 +31,9 @@ pub struct Change {
     pub source: String,
     /// Kind of event.
     pub kind: String,
-    /// Number per period below the parameter value of the change.
+    /// Number of such events per period at parameter values below the change.
     pub below: usize,
-    /// Number per period above it.
+    /// Number of such events per period at parameter values above the change.
     pub above: usize,
 }
 
@@ -53,7 +53,7 @@ impl Record for Events {
 impl Period {
     /// Simulates the period of an orbit and records its events.
     pub(super) fn of(bench: &Bench<'_>, place: &Place) -> Result<Self, Trouble> {
-        // The period after the image is used: an event just at the start could be missed in the period before.
+        // The period that starts at the image is simulated, because an event exactly at the start of the previous period could be missed.
         let (state, period) = (&place.fixed.image.state, place.variant.drive.period);
         let (from, job) = (state.time(), &place.variant.job);
         let mut grip = job.scenario.figures.body.map(|body| Grip::new(job, body));
@@ -99,7 +99,7 @@ pub(super) fn stretch(
     Ok((state, events.0, loose))
 }
 
-/// Returns the differences of event counts, from the smaller to the larger parameter value.
+/// Returns the differences between the event counts at a smaller and at a larger parameter value.
 pub(super) fn changes(below: &Happened, above: &Happened) -> Vec<Change> {
     let mut keys: Vec<_> = below.keys().chain(above.keys()).collect();
     keys.sort();
@@ -111,7 +111,7 @@ pub(super) fn changes(below: &Happened, above: &Happened) -> Vec<Change> {
     keys.into_iter().map(change).filter(|change| change.below != change.above).collect()
 }
 
-/// Returns the first two events whose order differs. Returns `None` if the order is the same.
+/// Returns the first two events whose order differs, or `None` if the order is the same.
 pub(super) fn swap(orders: [&[(String, String)]; 2]) -> Option<[(String, String); 2]> {
     let mut pairs = orders[0].iter().zip(orders[1]);
     pairs.find(|(below, above)| below != above).map(|(below, above)| [below.clone(), above.clone()])

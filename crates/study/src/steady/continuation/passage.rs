@@ -6,13 +6,13 @@ use super::error::Trouble;
 use super::happened::{Change, Happened, changes, swap};
 use super::standing::Standing;
 
-/// Distance of the orbits on both sides of an event above which they belong to different branches.
+/// Distance between the orbits on both sides of an event above which the orbits belong to different branches.
 const JUMP: f64 = 1e-3;
-/// If `CLOSE` events lie within the fraction `CROWD` of the range, the next ones in this distance are combined. An
+/// If `CLOSE` events lie within the fraction `CROWD` of the parameter range, further events within this distance are located together. An
 /// example are reversals of decaying ringing, which vanish one after another.
 const CROWD: f64 = 1e-4;
 const CLOSE: usize = 2;
-/// Distance, in accuracies, below which an event that cancels the one before is a rounding error.
+/// Distance of two events that cancel each other, as a multiple of the accuracy, below which both result from rounding errors.
 const FLICKER: f64 = 1e3;
 
 impl Walk<'_> {
@@ -29,13 +29,13 @@ impl Walk<'_> {
                 Ok::<_, Trouble>((test.at(&standing, self.measure), (at, standing)))
             };
             let ([low, high], best) = root((0.0, at_here), (length, at_next), self.accuracy, value)?;
-            // Elsewhere only the computed tangent turns back, not the branch.
+            // If ∏(1 - λ) keeps its sign, only the computed tangent turns back, not the branch.
             if test == Test::Fold && turn(here) * turn(next) > 0.0 {
                 return Err(Trouble::Bends);
             }
             let Some((at, standing)) = best else { continue };
             if !test.is_met(&standing) {
-                // Multipliers jumped over the condition. The same jump may affect other test functions.
+                // Multipliers jumped over the condition of the bifurcation. The same jump may affect other test functions.
                 if !found.iter().any(|(.., mark)| matches!(mark.kind, Bifurcation::Break(_))) {
                     found.push(self.broken((here, next), [low, high])?);
                 }
@@ -45,7 +45,7 @@ impl Walk<'_> {
             // At a fold the bracket has no width in the parameter; the tolerance of the runs remains.
             let width = (0.5 * (high - low) * standing.pace().abs()).max(self.bench.options.tolerance);
             let half_width = width * self.bench.span;
-            // Near a bifurcation no multiplier is far from 1, so only the side of 1 decides.
+            // Near a bifurcation a multiplier has a modulus close to 1, so stability is decided without regard to the error of the modulus.
             let sides = [here, next].map(|standing| standing.point.radius() < 1.0);
             let mark = self.mark(kind, &standing, half_width, sides);
             found.push((at, standing, mark));
@@ -58,7 +58,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Returns the point at which the derivatives of the map jump, between two distances along the tangent.
+    /// Returns the point at which the derivatives of the Poincaré map jump, between two distances along the tangent.
     fn broken(
         &self,
         (here, next): (&Standing, &Standing),
@@ -83,7 +83,7 @@ impl Walk<'_> {
         Mark { kind, value: at.point.value, half_width, step: at.point.step, stable }
     }
 
-    /// Locates an event between an orbit and a point with other events, by bisection, and continues beyond it.
+    /// Locates an event between two orbits with different events by bisection, and continues the branch beyond the event.
     pub(super) fn pass(&mut self, here: &Standing, far: Probe, length: f64) -> Result<Standing, Trouble> {
         let (mut low, mut high) = (0.0, length);
         let (mut near, mut far): (Option<Probe>, Probe) = (None, far);
@@ -123,15 +123,15 @@ impl Walk<'_> {
         Ok(beyond)
     }
 
-    /// Returns whether several events lie so close that the next ones are combined.
+    /// Returns whether several events are so close to an orbit that the next events are located together.
     fn is_crowded(&self, here: &Standing) -> bool {
         let near = |value: &&f64| (**value - here.point.value).abs() < CROWD * self.bench.span;
         self.passed.iter().rev().take(CLOSE).filter(near).count() == CLOSE
     }
 
-    /// Adds a special point, unless it cancels the event before it.
+    /// Adds a special point, unless it cancels the previous event.
     pub(super) fn add(&mut self, mark: Mark) {
-        // An event without width was found when the Poincaré section moved.
+        // An event whose bracket has no width results from a new instant of the Poincaré section.
         if matches!(mark.kind, Bifurcation::Event(_)) && mark.half_width > 0.0 {
             self.passed.push(mark.value);
         }
@@ -149,8 +149,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Adds a special point for the differences in the events of an orbit and of one just beyond it. `sense` is the
-    /// direction of the parameter.
+    /// Adds a special point for the differences in the events of an orbit and of another orbit just beyond it. `sense` is the direction of
+    /// the parameter.
     pub(super) fn event(
         &mut self,
         sense: f64,
@@ -159,7 +159,7 @@ impl Walk<'_> {
     ) {
         let values = [before.point.value, value];
         let mut sides = [(&before.happened, before.point.is_stable()), (happened, stable)];
-        // The difference of their parameter values may be a rounding error.
+        // The direction is given, because the difference of the two parameter values may be a rounding error.
         if sense < 0.0 {
             sides.reverse();
         }

@@ -1,4 +1,4 @@
-//! State of the drive at a value of the parameter, with its image after a period.
+//! State of the drive at a parameter value, and its image after a period.
 
 use super::error::Trouble;
 use crate::steady::endless::Endless;
@@ -15,29 +15,29 @@ use stickslip_drive::section::Section;
 use stickslip_run::Job;
 use stickslip_scenario::{Scenario, ScenarioError};
 
-/// Target for the change of the defect in finite differences with respect to the parameter, in tolerances, and its
-/// limit in natural scales.
+/// Target for the change of the defect in finite differences with respect to the parameter, as a multiple of the tolerance, and limit of
+/// this target in natural scales.
 ///
-/// Neighbouring runs take the same time steps and have nearly the same error. A larger distance would suffer from waves
-/// of the map that ringing causes.
+/// Runs at neighbouring parameter values take the same time steps and have nearly the same error. At larger distances, ringing of the drive
+/// makes the Poincaré map oscillate.
 const SEEN: f64 = 1e5;
 const MOST_SEEN: f64 = 1e-4;
-/// Number of attempts to reach the target within a factor of ten.
+/// Number of attempts to match the target within a factor of ten.
 const TRIES: u32 = 6;
-/// Smallest and largest distance in the parameter, relative to its range.
+/// Smallest and largest distance of parameter values, as a fraction of the range.
 const LEAST: f64 = 1e-10;
 const MOST: f64 = 1e-3;
 /// Maximum number of changes in the structure of the slip memories during a search.
 const FORMS: u32 = 4;
 
-/// Drive at a value of the parameter.
+/// Drive whose varied parameter has a certain value.
 pub(super) struct Variant {
     pub(super) value: f64,
     pub(super) job: Job,
     pub(super) drive: Endless,
 }
 
-/// State of this drive with its image.
+/// State of a variant of the drive, and the image of this state after a period.
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) variant: Rc<Variant>,
@@ -48,18 +48,18 @@ pub(super) struct Place {
 #[derive(Clone, Serialize, Deserialize)]
 pub(super) struct Slopes {
     pub(super) gradient: Gradient,
-    /// Derivative of the defect with respect to the parameter relative to its range, in natural scales.
+    /// Derivative of the defect, in natural scales, with respect to the parameter as a fraction of its range.
     pub(super) by_value: DVector<f64>,
 }
 
-/// Builds and simulates drives at different values of the parameter.
+/// Builds and simulates drives at different parameter values.
 pub(super) struct Bench<'a> {
     pub(super) job: &'a Job,
     pub(super) path: &'a str,
-    /// Length of the range.
+    /// Length of the parameter range.
     pub(super) span: f64,
     pub(super) options: Options<'a>,
-    /// Distance of finite differences in the parameter, relative to its range.
+    /// Distance of finite differences in the parameter, as a fraction of its range.
     pub(super) apart: Cell<f64>,
 }
 
@@ -68,13 +68,13 @@ impl<'a> Bench<'a> {
         Self { job, path, span, options, apart: Cell::new(1e-6) }
     }
 
-    /// Returns the drive at a value.
+    /// Returns the drive at a parameter value.
     pub(super) fn variant(&self, value: f64) -> Result<Rc<Variant>, Trouble> {
         if !value.is_finite() {
             return Err(Trouble::Diverged);
         }
         let text = format!("{value:e}");
-        // The resolved scenario contains defaults and the points of tables.
+        // The resolved scenario contains default values and the points of tables.
         let made =
             Scenario::from_str_with(&self.job.resolved, &self.job.name, "", &[(self.path, text.as_str())]);
         let made = made.and_then(|mut scenario| {
@@ -91,7 +91,7 @@ impl<'a> Bench<'a> {
         Map::new(&variant.drive.model, variant.drive.period, &variant.job, &self.options)
     }
 
-    /// Returns the map at a state. Fails if its number of unknowns differs from that of the defect.
+    /// Returns the Poincaré map at a state. Fails if the numbers of unknowns and of components of the defect differ.
     pub(super) fn map_at<'v>(&'v self, place: &'v Place) -> Result<Map<'v>, Trouble> {
         let section = Section::new(&place.variant.drive.model, place.fixed.state.clone());
         if section.unknowns().len() != place.fixed.defect.len() {
@@ -102,7 +102,7 @@ impl<'a> Bench<'a> {
         Ok(map)
     }
 
-    /// Returns a state with its image.
+    /// Returns a state with its image after a period.
     pub(super) fn place(&self, variant: &Rc<Variant>, state: State) -> Result<Place, Trouble> {
         let mut map = self.map(variant);
         let section = Section::new(&variant.drive.model, state);
@@ -133,7 +133,7 @@ impl<'a> Bench<'a> {
         Err(Trouble::OtherForm)
     }
 
-    /// Returns the same orbit with the Poincaré section at the instant of the smallest slip memory.
+    /// Returns an orbit with its Poincaré section moved to the instant at which the slip memory is smallest.
     pub(super) fn moment(&self, place: &Place) -> Result<Place, Trouble> {
         let mut map = self.map_at(place)?;
         let state = moment::again(&mut map, place.fixed.state.clone())?.state;
@@ -141,14 +141,14 @@ impl<'a> Bench<'a> {
         self.place(&place.variant, state)
     }
 
-    /// Transfers a state from one variant to another, with its unknowns changed by `by`, in natural scales.
+    /// Transfers a state from one variant to another and changes its unknowns by `by`, in natural scales.
     pub(super) fn elsewhere(
         &self,
         (state, of): (&State, &Variant),
         to: &Variant,
         by: &DVector<f64>,
     ) -> Result<State, Trouble> {
-        // At the same phase of the period.
+        // The new state is at the same phase of the period.
         let t = state.time() * (to.drive.period / of.drive.period);
         let section = Section::new(&of.drive.model, state.clone());
         if section.unknowns().len() != by.len() {
@@ -158,7 +158,7 @@ impl<'a> Bench<'a> {
         section.elsewhere(state, by.as_slice(), &to.drive.model, t).ok_or(Trouble::OtherForm)
     }
 
-    /// Returns the derivatives of the map at a point.
+    /// Returns the derivatives of the Poincaré map at a point.
     pub(super) fn slopes(&self, place: &Place) -> Result<Slopes, Trouble> {
         let Fixed { state, image, .. } = &place.fixed;
         let apart = near(self.options.tolerance);
@@ -166,8 +166,8 @@ impl<'a> Bench<'a> {
         Ok(Slopes { gradient, by_value: self.by_value(place)? })
     }
 
-    /// Returns the derivative of the defect with respect to the parameter by central differences. Differences are
-    /// one-sided if one side has other events or another memory structure.
+    /// Returns the derivative of the defect with respect to the parameter by central differences. Differences are one-sided if one side has
+    /// other events or another structure of the slip memory.
     pub(super) fn by_value(&self, place: &Place) -> Result<DVector<f64>, Trouble> {
         let mut why = Trouble::OtherForm;
         let seen = (SEEN * self.options.tolerance).min(MOST_SEEN);
@@ -199,7 +199,7 @@ impl<'a> Bench<'a> {
         Err(why)
     }
 
-    /// Returns the same state at another value of the parameter.
+    /// Returns a state transferred to another parameter value, with its image after a period.
     fn beside(&self, place: &Place, by: f64) -> Result<Fixed, Trouble> {
         let variant = self.variant(place.variant.value + by * self.span)?;
         let still = DVector::zeros(place.fixed.defect.len());

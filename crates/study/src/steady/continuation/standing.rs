@@ -14,7 +14,7 @@ use stickslip_drive::scene::Axis;
 pub struct Point {
     /// Value of the parameter, SI.
     pub value: f64,
-    /// Displacement of the body named in `figures` along x per period, m. `None` if no body is named or it is not free.
+    /// Displacement of the body named in `figures` along x per period, m. `None` if no body is named or the body is not free.
     pub step: Option<f64>,
     /// Error of the step length, m.
     pub bound: f64,
@@ -33,7 +33,7 @@ pub struct Point {
 pub(super) struct Standing {
     pub(super) place: Place,
     pub(super) slopes: Slopes,
-    /// Unit tangent of the branch: unknowns, then the parameter relative to its range.
+    /// Unit tangent of the branch: unknowns, then the parameter as a fraction of its range.
     pub(super) tangent: DVector<f64>,
     pub(super) happened: Happened,
     /// Relative distance of the Poincaré section from the nearest event: 0.5 midway between two events, 0 at an event.
@@ -46,7 +46,7 @@ pub(super) struct Standing {
 /// Metric of the arclength along a branch.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
-    /// Weight of an unknown in natural scales; the parameter relative to its range has weight 1.
+    /// Weight of an unknown in natural scales; the parameter as a fraction of its range has weight 1.
     pub(super) weight: f64,
 }
 
@@ -58,7 +58,7 @@ impl Measure {
         Self { weight: 1.0 / change.max(1.0) }
     }
 
-    /// Returns the row vector that measures lengths along a tangent.
+    /// Returns the row vector whose product with a change of the unknowns is the length along the tangent.
     pub(super) fn row(self, tangent: &DVector<f64>) -> DVector<f64> {
         let mut row = tangent * (self.weight * self.weight);
         let last = tangent.len() - 1;
@@ -71,7 +71,7 @@ impl Measure {
     }
 }
 
-/// Returns the row vector of the parameter alone.
+/// Returns the row vector that selects the parameter.
 pub(super) fn by_value(count: usize, sense: f64) -> DVector<f64> {
     let mut row = DVector::zeros(count + 1);
     row[count] = sense;
@@ -123,7 +123,7 @@ impl Standing {
         self.slopes.by_value.len()
     }
 
-    /// Returns the change of the parameter along the branch: its component of the tangent.
+    /// Returns the change of the parameter per length of the branch: the component of the tangent along the parameter.
     pub(super) fn pace(&self) -> f64 {
         self.tangent[self.count()]
     }

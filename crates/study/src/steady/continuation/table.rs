@@ -11,8 +11,8 @@ use stickslip_run::Real;
 use stickslip_run::files::{BRANCH, PARTIAL_BRANCH};
 use stickslip_run::folder::Folder;
 
-/// Names of table and report, of a complete and of an interrupted branch. An interrupted branch does not replace a
-/// complete one.
+/// File names of table and report for complete and for interrupted branches. The files of an interrupted branch do not replace those of a
+/// complete branch.
 const NAMES: Names = [["branch.csv", BRANCH], ["branch-partial.csv", PARTIAL_BRANCH]];
 
 /// Returns the names of all files of a branch except plots.
@@ -181,7 +181,7 @@ impl MarkReport {
 }
 
 impl End {
-    /// Returns the word in files.
+    /// Returns the name of the end reason in output files.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -196,7 +196,7 @@ impl End {
         }
     }
 
-    /// Returns a sentence.
+    /// Returns a sentence that describes the end reason.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
@@ -213,7 +213,7 @@ impl End {
             ),
             Self::Lost(why) => format!("no orbit was found beyond this value: {why}"),
             Self::Refused(why) => {
-                format!("the scenario refuses values beyond: {}", why.lines().next().unwrap_or_default())
+                format!("the scenario is invalid beyond: {}", why.lines().next().unwrap_or_default())
             }
             Self::Points => "the maximum number of points was reached; --points increases it".to_owned(),
             Self::Interrupted => "interrupted".to_owned(),
@@ -254,15 +254,15 @@ pub fn json(of: &Continuation, branch: &Branch, accuracy: [f64; 2]) -> String {
     serde_json::to_string(&report(of, branch, accuracy)).unwrap_or_default()
 }
 
-/// Writes the table, `branch.json` and plots into a folder, and deletes the plots named `stale` that are not among
-/// them. Returns the names.
+/// Writes the table, `branch.json` and plots into a folder, and deletes plots named in `stale` that are not written again. Returns the
+/// names of the written files.
 ///
-/// An interrupted branch is written to `branch-partial.csv` and `branch-partial.json`; the next complete branch deletes
-/// these. `accuracy` has the tolerance of the runs and the accuracy of special points.
+/// An interrupted branch is written to `branch-partial.csv` and `branch-partial.json`; the next complete branch deletes these partial
+/// files. `accuracy` contains the tolerance of the runs and the accuracy of special points.
 ///
 /// # Errors
-/// Error of the operating system. Existing files remain, unless the error occurs while the new files receive their
-/// names.
+/// Returns an error of the operating system. Existing files remain unchanged, unless the error occurs while new files are renamed to their
+/// final names.
 pub fn write(
     folder: Folder,
     (of, branch): (&Continuation, &Branch),

@@ -1,4 +1,4 @@
-//! Form of an orbit in the journal. The continuation resumes from it with identical bits.
+//! Stored form of an orbit in the journal. A continuation that resumes from a stored orbit gives identical bits.
 
 use super::happened::Happened;
 use super::place::{Bench, Place, Slopes};
@@ -11,14 +11,14 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 use stickslip_drive::{Model, State};
 
-/// Dummy key of stored states. They belong to the model at the stored parameter value.
+/// Key of stored states, without meaning here: the states belong to the model at the stored parameter value.
 const KEY: [u8; 32] = [0; 32];
 
 /// An orbit in the journal.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Written {
     value: f64,
-    /// State and image as hexadecimal bytes.
+    /// State and its image as hexadecimal bytes.
     states: [String; 2],
     way: Vec<f64>,
     tally: Option<Tally>,
@@ -42,7 +42,7 @@ impl Written {
         Self { value, states, way, tally, defect, slopes, tangent, happened, margin, is_loose, point }
     }
 
-    /// Restores the orbit. Returns `None` if the states do not belong to the model.
+    /// Restores the orbit. Returns `None` if the stored states do not belong to the model.
     pub(super) fn read(self, bench: &Bench<'_>) -> Option<Standing> {
         let variant = bench.variant(self.value).ok()?;
         let [state, image] = self.states.map(|text| state(&variant.drive.model, &text));

@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use stickslip_drive::State;
 
-/// Returns the distance of one-sided differences during the search, in natural scales: √t for the tolerance t. Errors
-/// of the integration and of a curvature of 1 are then equal.
+/// Returns the distance of one-sided differences during the search, in natural scales: √t for the tolerance t. The error from integration
+/// then equals the error from a curvature of 1.
 pub(in crate::steady) fn near(tolerance: f64) -> f64 {
     tolerance.sqrt()
 }
@@ -25,56 +25,56 @@ pub(in crate::steady) struct Gradient {
     pub(in crate::steady) numbers: DMatrix<f64>,
     /// Derivatives of the displacement of each free coordinate, m or rad per natural scale.
     pub(in crate::steady) way: DMatrix<f64>,
-    /// Indices of unknown columns: disturbances of these unknowns change the number of memory corners.
+    /// Indices of columns without derivative, because a disturbance of these unknowns changes the number of breakpoints of a slip memory.
     pub(in crate::steady) unknown: Vec<usize>,
-    /// Error of the differences due to curvature, as Frobenius norm.
+    /// Error of the finite differences due to curvature, as Frobenius norm.
     pub(in crate::steady) missed: f64,
 }
 
 /// Derivative of the image with respect to one unknown.
 struct Slope {
     numbers: DVector<f64>,
-    /// Derivative of the displacements.
+    /// Derivative of the displacements with respect to this unknown.
     way: Vec<f64>,
-    /// Difference between both one-sided derivatives or two distances, and the estimated error. `None` for a single difference.
+    /// Difference between both one-sided derivatives or two distances, and estimated error. `None` for a single difference.
     bend: Option<[f64; 2]>,
 }
 
-/// Difference of one-sided derivatives above which a corner is possible. Below it, the error is smaller than the
-/// resolution of multipliers.
+/// Difference of one-sided derivatives above which a corner is possible. Smaller differences cause errors below the resolution of
+/// multipliers.
 const CORNER: f64 = 1e-6;
-/// Factor between the two distances that distinguish curvature from a corner.
+/// Ratio of the two distances that distinguish curvature from a corner.
 const NEARER: f64 = 4.0;
 
 impl Slope {
-    /// Sets the difference of the one-sided derivatives. For a smooth curve the error is proportional to its square.
+    /// Sets the difference of the one-sided derivatives. For a smooth map the error is proportional to the square of this difference.
     fn bent_by(self, bend: f64) -> Self {
         let size = self.numbers.norm();
         let missed = if bend < size { bend * bend / size } else { bend };
         Self { bend: Some([bend, missed]), ..self }
     }
 
-    /// Returns the derivative from closer differences if both disagree by more than noise, because a corner lies within the wider ones.
+    /// Returns the derivative from closer differences if both derivatives differ by more than noise, as at a corner in between.
     fn or_nearer(self, inner: Self, noise: f64) -> Self {
         let off = (&self.numbers - &inner.numbers).norm();
         if off <= noise {
             return self;
         }
-        // A corner within the closer differences causes an error below the difference of their sides.
+        // A corner within the closer differences causes an error below the difference of the one-sided derivatives.
         let bend = inner.bend.map_or(off, |[bend, _]| bend.min(off));
         Self { bend: Some([bend; 2]), ..inner }
     }
 }
 
 impl Gradient {
-    /// Returns the error of the entries due to the tolerance of the runs: the integration error divided by the distance.
+    /// Returns the error of the entries due to the tolerance of the runs: integration error divided by distance.
     pub(in crate::steady) fn noise(tolerance: f64) -> f64 {
         3.0 * tolerance / fine(tolerance)
     }
 }
 
 impl Map<'_> {
-    /// Computes the Jacobian at a state with known image, with one difference of distance `near` per unknown, in natural scales.
+    /// Computes the Jacobian at a state with known image, by one-sided differences of distance `near`, in natural scales.
     pub(in crate::steady) fn near_gradient(
         &mut self,
         (state, image): (&State, &Image),
@@ -86,9 +86,9 @@ impl Map<'_> {
         })
     }
 
-    /// Computes the Jacobian with central differences.
+    /// Computes the Jacobian by central differences.
     ///
-    /// If one side has other events or another number of memory corners, two one-sided differences are used instead.
+    /// If one side has other events or another number of breakpoints of the slip memory, two one-sided differences are used.
     pub(in crate::steady) fn fine_gradient(
         &mut self,
         state: &State,
@@ -130,14 +130,14 @@ impl Map<'_> {
         })
     }
 
-    /// Returns the derivative from two images at a distance of `apart`.
+    /// Returns the derivative from two images of states at a distance of `apart`.
     fn slope(&self, [ahead, behind]: [&Image; 2], apart: f64) -> Option<Slope> {
         let difference = self.difference(&ahead.state, &behind.state)?;
         let way = ahead.way.iter().zip(&behind.way).map(|(ahead, behind)| (ahead - behind) / apart);
         Some(Slope { numbers: difference / apart, way: way.collect(), bend: None })
     }
 
-    /// Returns the central difference from images ahead and behind.
+    /// Returns the central difference from the images of states ahead and behind.
     fn central(&self, [ahead, image, behind]: [&Image; 3], by: f64) -> Option<Slope> {
         let half = self.slope([ahead, image], by)?;
         let slope = self.slope([ahead, behind], 2.0 * by)?;
@@ -154,7 +154,7 @@ impl Map<'_> {
         Some(Slope { numbers: near.numbers * 2.0 - twice.numbers, way, bend: None }.bent_by(bend))
     }
 
-    /// Assembles the Jacobian from its columns. Columns that cannot be computed are zero and listed as unknown.
+    /// Assembles the Jacobian from its columns. Columns that cannot be computed are zero and are listed in `unknown`.
     fn gradient(
         &mut self,
         image: &Image,
@@ -181,13 +181,13 @@ impl Map<'_> {
             gradient.numbers.set_column(j, &numbers);
             gradient.way.set_column(j, &DVector::from_vec(way));
         }
-        // A single one-sided difference does not show curvature; that of the other columns is used instead.
+        // A single one-sided difference does not show curvature; the curvature of the other columns is used instead.
         let unseen = if known > 0.0 { bends * (all - known) / known } else { 0.0 };
         gradient.missed = (missed + unseen).sqrt();
         Ok(gradient)
     }
 
-    /// Returns the image of a state with one unknown changed. Returns `None` if the number of memory corners changes.
+    /// Returns the image of a state with one changed unknown, or `None` if the number of breakpoints of a slip memory changes.
     fn beside(&mut self, state: &State, (j, by): (usize, f64)) -> Result<Option<Image>, SteadyError> {
         let mut along = DVector::zeros(self.scales.len());
         along[j] = by;

@@ -1,7 +1,7 @@
-//! Accurate cut of a step in which a motion decays.
+//! Accurate cut of a step, for models in which a motion may decay within a step.
 //!
-//! There the dense output is less accurate than the end of a step by a factor of tens, which also affects the event time. A separate step
-//! to the event time gives an accurate state. The value of the event function in that state corrects the event time.
+//! In such a step the dense output is tens of times less accurate than the end of a step, which also affects the event time. A separate
+//! step to the event time gives an accurate state. The value of the event function in that state corrects the event time.
 
 use super::{Fall, Search};
 use crate::equations::Equations;
@@ -12,11 +12,11 @@ use stickslip_stepper::Attempt;
 
 /// Largest number of corrections of the event time.
 const MOVES: u32 = 3;
-/// Fraction of the step over which the rate of an event function is computed.
+/// Fraction of the step over which a finite difference gives the rate of an event function.
 const SHARE: f64 = 1e-4;
 
 impl Watch {
-    /// Cuts the step at an event and corrects the event time by separate steps to it.
+    /// Cuts the step at an event and corrects the event time by separate steps to that time.
     #[inline(never)]
     pub(super) fn meet<'e, A: for<'q> Attempt<Equations<'q>>>(
         &mut self,

@@ -1,4 +1,4 @@
-//! Values and rates of event functions at both ends of a step and inside it, and their bands around zero.
+//! Values and rates of event functions at both ends of a step and inside it, and their near-zero bands.
 
 use super::{Search, Seen};
 use crate::contact::{Contact, Guard, Motion, bands};
@@ -90,7 +90,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
 
     /// Returns time and motion of a contact at a fraction of the step, from the dense output.
     ///
-    /// The result is stored, because several event functions of a contact need it.
+    /// The motion is stored, because several event functions of a contact need it.
     pub(super) fn motion_at(&mut self, index: usize, contact: &Contact, part: f64) -> (f64, Motion) {
         let Span { time, end_time, .. } = self.solver.span();
         let t = time + part * (end_time - time);
@@ -108,7 +108,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
         (t, motion)
     }
 
-    /// Returns deadband and nearness of an event function.
+    /// Returns the deadband and the near-zero band of an event function, both around zero.
     pub(super) fn bands(&self, watched: Watched<'_>) -> (f64, f64) {
         let (dead, near) = self.own_bands(watched);
         let (contact, guard) = match watched {
@@ -122,7 +122,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {
         (dead.max(guard.noise(contact, contact.u.travel(|i| begin[i])).min(near)), near)
     }
 
-    /// Returns deadband and nearness without the noise of bodies far from their origins.
+    /// Returns the deadband and the near-zero band of an event function without the rounding noise of large positions.
     #[inline(always)]
     pub(super) fn own_bands(&self, watched: Watched<'_>) -> (f64, f64) {
         match watched {

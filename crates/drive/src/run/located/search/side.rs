@@ -1,6 +1,6 @@
-//! Crossing of the apex of a shrinking contact through an old curve of its slip memory.
+//! Event function of a shrinking contact: the distance between its state (d, u) and an old curve of its slip memory.
 //!
-//! The distance between them is no polynomial, because the curve has knots. With the dense output, values and rates are cheap.
+//! This distance is no polynomial, because the curve has breakpoints. With the dense output, values and rates cost little.
 
 use super::{LOOKS, Search};
 use crate::contact::{Contact, Guard, Motion};
@@ -8,9 +8,9 @@ use crate::equations::Equations;
 use crate::run::located::watched::Watched;
 use stickslip_stepper::{Attempt, Completion};
 
-/// Fractions of a step, near its start, at which the apex is checked before those of [`LOOKS`].
+/// Fractions of a step, near its start, at which the distance is checked before the fractions [`LOOKS`].
 pub(super) const EARLY: [f64; 3] = [0.03125, 0.0625, 0.125];
-/// Largest number of tangent constructions for one minimum.
+/// Largest number of tangent constructions in the search for one minimum.
 const DIPS: usize = 8;
 
 /// Tangent of an event function at time `t`.
@@ -22,7 +22,7 @@ struct Tangent {
 }
 
 impl Tangent {
-    /// Returns time and value at which two tangents meet, if the function falls at the first and rises at the second.
+    /// Returns time and value at the intersection of two tangents, if the function falls at the first and rises at the second.
     fn meet([first, last]: [Self; 2]) -> Option<(f64, f64)> {
         let way = (last.y - first.y - last.rate * (last.t - first.t)) / (first.rate - last.rate);
         let t = first.t + way;
@@ -32,11 +32,11 @@ impl Tangent {
 }
 
 impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
-    /// Returns the first time found at which the apex has crossed the old curve, and the distance from the curve.
+    /// Returns the first time found at which the state (d, u) has crossed the old memory curve, and the distance from the curve.
     ///
-    /// A step that begins after a crossing begins on the curve, and the apex may soon cross again. Between a time with
-    /// falling distance and the next one with rising distance there is a minimum. For a distance of constant curvature
-    /// sign, it is not below the point where both tangents meet.
+    /// A step that begins after a crossing begins on the curve, and a second crossing may follow soon. Between a time with decreasing
+    /// distance and the next one with increasing distance there is a minimum. If the curvature of the distance does not change sign, the
+    /// minimum is not below the intersection of both tangents.
     pub(super) fn side(&mut self, (index, contact): (usize, &'e Contact)) -> Option<(f64, f64)> {
         let watched = Watched::Contact(index, contact, Guard::Side);
         let law = self.eq.law(index);

@@ -1,8 +1,8 @@
 //! Events of blocks during step doubling.
 //!
-//! The law of a block is smooth up to its own event only, and the error of a step does not detect a missed event. Event functions of
-//! blocks are therefore evaluated at the middle and the end of each half step. After a zero crossing, the event is located on the
-//! interpolants of the half steps, and the step is repeated up to there. The block then chooses its next law as between located events.
+//! The law of a block is smooth only up to its own event, and the error of a step does not detect a missed event. Event functions of blocks
+//! are therefore evaluated at the middle and the end of each half step. After a zero crossing, the event is located on the interpolants of
+//! the half steps, and the step is repeated up to the event. The block then chooses its next law as in runs with located events.
 
 use super::way::Way;
 use super::{Halves, Times};
@@ -15,10 +15,10 @@ use crate::run::located::watch::Fallen;
 use crate::state::State;
 use stickslip_stepper::{Attempt, Bracket, Point, root};
 
-/// Number of evaluations of an event function in a step: at its start, and at the middle and end of each half step.
+/// Number of evaluations of an event function in a step: at the start of the step, and at the middle and end of each half step.
 const LOOKS: usize = 5;
 
-/// First zero crossing of a block in a step: time, s, block and event function.
+/// First zero crossing of a block's event function in a step: time (s), index of the block, and event function.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fall {
     pub(super) t: f64,
@@ -26,7 +26,7 @@ pub(super) struct Fall {
     guard: usize,
 }
 
-/// Values of an event function in a step, and its deadband and nearness.
+/// Values of an event function in a step, with its deadband and its near-zero band.
 struct Looked {
     points: [Point; LOOKS],
     bands: (f64, f64),
@@ -39,9 +39,9 @@ impl Looked {
         (1..LOOKS).find(|i| self.points[*i].y < -self.bands.0 && self.points[*i].y < start)
     }
 
-    /// Returns the bracket of the zero crossing and the level that is crossed.
+    /// Returns the bracket of the zero crossing, and the level that the function crosses in this bracket.
     ///
-    /// The level is zero. For a function near zero at the start that has not risen since, it is one deadband lower.
+    /// The level is zero. If the function is near zero at the start and has not risen since, the level is one deadband lower.
     fn bracket(&self, low: usize) -> (Bracket, f64) {
         let (dead, near) = self.bands;
         let (start, to) = (self.points[0].y, self.points[low]);
@@ -55,9 +55,9 @@ impl Looked {
 }
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Attempts a step and, if a block has an event inside it, a step to that event.
+    /// Attempts a step. If a block has an event inside the step, attempts a second step that ends at this event.
     ///
-    /// Returns error and times of the last attempt, and the event. If `slides`, the step is accepted with any finite error.
+    /// Returns the error and the times of the last attempt, and the event. With `slides`, any finite error of the step is accepted.
     pub(super) fn try_up_to_fall(
         &mut self,
         halves: &mut Halves,
@@ -113,7 +113,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Collects the events of blocks at the end of a step.
     ///
-    /// These are the event that ends the step, and one event function of every other block that is negative or near zero.
+    /// These are the event that ends the step, and for every other block one event function that is negative or near zero.
     pub(super) fn note_falls(&mut self, state: &State, halves: &Halves, (times, fall): (Times, Fall)) {
         let fired = &mut self.watch.fired;
         fired.clear();
@@ -136,10 +136,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Changes the laws of blocks at the end of a step, or where step doubling begins in the middle of an event.
+    /// Changes the laws of blocks at the end of a step, or at the start of step doubling during the handling of an event.
     ///
-    /// Handles the zero crossings from index `first` on. After them or at a corner, rates have jumped, and all other
-    /// blocks choose their laws again.
+    /// Handles the zero crossings from index `first` on. After a block event or at a corner, rates have jumped, and all other blocks choose
+    /// their laws again.
     pub(in crate::run::located) fn pass_blocks(
         &mut self,
         state: &mut State,

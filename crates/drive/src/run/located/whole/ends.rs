@@ -10,13 +10,13 @@ use crate::{EventKind, RunError, Source};
 use std::f64::consts::TAU;
 use stickslip_stepper::Attempt;
 
-/// Length of a first interval, in natural periods.
+/// Length of the first interval of step doubling, in natural periods.
 const SHARE: f64 = 1.0 / 64.0;
-/// First step of an interval, as a fraction of the interval.
+/// Length of the first step in an interval of step doubling, as a fraction of the interval.
 const FIRST: f64 = 1e-3;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Begins step doubling after an error caused by accumulating events or by steps that do not advance.
+    /// Begins step doubling after an error due to accumulating events or to steps that do not advance the time.
     ///
     /// Returns the error `reason` unchanged if step doubling is not possible.
     pub(in crate::run::located) fn depart(
@@ -63,9 +63,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         lengths.fold(f64::INFINITY, f64::min)
     }
 
-    /// Selects step doubling for the whole run if a spring row under a varying normal force has too many springs.
+    /// Selects step doubling for the whole run if a spring row under a varying normal force changes too often.
     ///
-    /// The change of each spring would have to end a step, because embedded estimates do not detect it.
+    /// The change of each spring would have to end a step, because embedded error estimates do not detect these changes.
     pub(in crate::run::located) fn stay_whole(&mut self, state: &mut State) {
         let model = self.setting.model;
         let dense =
@@ -80,9 +80,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
     }
 
-    /// Returns to located events: every contact law is chosen again.
+    /// Ends step doubling and returns to located events; the law of every contact is chosen again.
     ///
-    /// The beginning of gross slip in the interval was not located. It is reported here, possibly for a second time.
+    /// The beginning of gross slip during step doubling was not located. It is reported at this time, possibly for a second time.
     pub(super) fn arrive(&mut self, state: &mut State, detour: &Detour, record: &mut dyn Record) {
         self.detour = None;
         self.bounds.forget();

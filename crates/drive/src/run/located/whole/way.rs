@@ -1,6 +1,6 @@
 //! Interpolation inside a half step of step doubling.
 
-/// Half step with components and slopes at both ends.
+/// Half step, with components and time derivatives at both ends.
 pub(super) struct Way<'y> {
     pub(super) from: (f64, &'y [f64]),
     pub(super) to: (f64, &'y [f64]),
@@ -9,10 +9,10 @@ pub(super) struct Way<'y> {
 }
 
 impl Way<'_> {
-    /// Returns component `i` at time t.
+    /// Returns component `i` at time t inside the half step.
     ///
-    /// Positions use the quintic through positions, velocities and accelerations of both ends. Other components use the
-    /// cubic Hermite interpolant.
+    /// Positions use the quintic polynomial through positions, velocities and accelerations of both ends. Other components use the cubic
+    /// Hermite interpolant.
     pub(super) fn value(&self, i: usize, t: f64) -> f64 {
         let ((t0, y0), (t1, y1)) = (self.from, self.to);
         if t >= t1 {
