@@ -10,7 +10,7 @@
 //! gives access to smooth branches of the hysteresis.
 //!
 //! Reading order: [`Material`] and [`Pair`]; [`Profile`]; [`Interface`]; [`Move`] and [`Segment`]; [`Curve`] and [`Branch`]; [`Row`];
-//! [`Engine`]; [`FirstLoading`]; [`Fields`]; [`Words`] for serialization.
+//! [`Engine`]; [`Law`]; [`FirstLoading`]; [`Fields`]; [`Words`] for serialization.
 //!
 //! Assumptions: half-spaces in contact over a small round area, no adhesion, Coulomb friction at every point. The theory is exact for
 //! elastically similar bodies; [`Similarity`] estimates the error for others.
@@ -23,6 +23,7 @@ mod engine;
 mod fields;
 mod first_loading;
 mod interface;
+mod law;
 mod material;
 mod motion;
 mod pressure;
@@ -37,6 +38,7 @@ pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use fields::{Field, Fields, FrictionMap, Zone, ZoneKind};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};
+pub use law::{GrowthRates, Guard, Law, Load, NEARNESS, Scale, Site, bands};
 pub use material::{Material, MaterialError, Pair};
 pub use motion::{
     Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState, Timed,

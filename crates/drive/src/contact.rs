@@ -1,21 +1,15 @@
 //! Contacts as components of a drive: constants, laws, event functions and forces.
 //!
-//! Like every [component](crate::component), a contact has a law ([`Mode`]), event functions ([`Guard`]), a memory and an energy. The crate
-//! `stickslip_contact` computes the contact mechanics. This module connects a contact with bodies: relative displacement u, indentation d,
-//! normal load, number of identical contacts and natural scales of tolerances.
+//! A contact has a law ([`Law`]), event functions ([`Guard`]), a memory and an energy, as every [component](crate::component).
+//! The crate `stickslip_contact` computes its mechanics. This module connects it with bodies: measures of u and d, the normal
+//! load, the number of contacts and the natural scales of tolerances.
 
 mod component;
-mod force;
-mod guard;
-mod mode;
-
-pub(crate) use guard::{Guard, NEARNESS, bands};
-pub(crate) use mode::Mode;
 
 use crate::model::Measure;
-use crate::{Piece, Sample};
+use crate::{EventKind, Piece, Sample};
 pub(crate) use stickslip_contact::Motion;
-use stickslip_contact::{Engine, Interface, Lull};
+use stickslip_contact::{Course, Engine, Guard, Interface, Law, Load, Lull, Scale, Site};
 
 /// Largest number of springs of a discretised contact whose slip and touch events end steps. The cost grows with its square.
 const MOST_SPRINGS: usize = 8192;
@@ -168,14 +162,7 @@ impl Contact {
         }
     }
 
-    /// Returns whether slip and touch of single springs end steps: in a row of at most [`MOST_SPRINGS`] under varying normal load.
-    // Under constant load the error estimate detects the kinks; ending steps at every kink would be too expensive for long paths. Contacts
-    // of quasi-static coordinates move on straight paths only, so their rows end steps under any load.
-    pub(crate) fn has_lulls(&self) -> bool {
-        (self.balanced || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
-    }
-
-    /// Returns whether the indentation is constant.
+    /// Whether the indentation is constant.
     pub(crate) fn is_constant(&self) -> bool {
         matches!(self.press, Press::Constant { .. })
     }
@@ -230,5 +217,66 @@ impl Contact {
             Press::Coupled(measure) => Some(measure),
             _ => None,
         }
+    }
+}
+
+impl Site for Contact {
+    #[inline]
+    fn interface(&self) -> &Interface {
+        &self.interface
+    }
+    #[inline]
+    fn load(&self) -> Load {
+        match self.press {
+            Press::Constant { reduced_force, .. } => Load::Constant(reduced_force),
+            Press::Force(_) => Load::Force,
+            Press::Indentation(_) | Press::Radius(_) => Load::Indentation,
+            Press::Coupled(_) => Load::Coupled,
+        }
+    }
+    #[inline]
+    fn is_inert(&self) -> bool {
+        self.inert
+    }
+    #[inline]
+    fn is_unguarded(&self) -> bool {
+        self.unguarded
+    }
+    /// A row with a varying normal load and at most [`MOST_SPRINGS`] springs.
+    // Under constant load, the error estimate detects the kinks; to end steps there would be too expensive for long paths.
+    // Balanced contacts move on straight paths only, so their rows end steps under any load.
+    fn has_lulls(&self) -> bool {
+        (self.balanced || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
+    }
+    #[inline]
+    fn scale(&self) -> Scale {
+        let Natural { depth, displacement, frequency, .. } = self.natural;
+        Scale { depth, displacement, frequency }
+    }
+}
+
+/// Returns the event at a zero crossing of an event function and the motion of the contact after it.
+///
+/// When a slipping edge stops, a deepening contact changes to full stick; any other contact slips in the opposite sense.
+pub(crate) fn fired(contact: &Contact, guard: Guard, law: &Law, at: &Motion) -> (EventKind, Course) {
+    let slope = contact.interface.stick_slope();
+    let [same, turned] = match law.sense() > 0.0 {
+        true => [Course::Forward, Course::Backward],
+        false => [Course::Backward, Course::Forward],
+    };
+    match guard {
+        Guard::Drag if at.dd > 0.0 && law.branch().is_some() => (EventKind::FullStick, Course::Grow),
+        Guard::Drag if law.is_gross() => (EventKind::GrossSlipEnds, turned),
+        Guard::Drag | Guard::Side => (EventKind::Reversal, turned),
+        // Changes of single springs are not recorded; the kind is a placeholder.
+        Guard::Piece | Guard::Edge | Guard::Forward | Guard::Backward | Guard::Rise | Guard::Sink => {
+            (EventKind::LoopClosed, same)
+        }
+        Guard::Lower => (EventKind::SlipBegins, Course::Forward),
+        Guard::Upper => (EventKind::SlipBegins, Course::Backward),
+        Guard::Contact => (EventKind::LiftOff, Course::Open),
+        // Contact at an angle within the friction cone: all springs stick, without friction work.
+        Guard::Gap if at.du.abs() <= slope * at.dd => (EventKind::Touch, Course::Grow),
+        Guard::Gap => (EventKind::Touch, if at.du > 0.0 { Course::Forward } else { Course::Backward }),
     }
 }

@@ -11,7 +11,7 @@ mod blocks;
 mod forces;
 mod sum;
 
-use crate::contact::{Contact, Mode, Motion, Press};
+use crate::contact::{Contact, Motion, Press};
 pub(crate) use balance::Instant;
 pub(crate) use sum::{Components, Reading, View};
 
@@ -19,7 +19,7 @@ use crate::interval::{Interval, Kernel, Pull};
 use crate::model::{Binding, BlockState, Measure};
 use crate::state::{Generating, Layout, State};
 use crate::{Model, Piece, Sample};
-use stickslip_contact::Memory;
+use stickslip_contact::{Law, Memory};
 use stickslip_stepper::{Conservative, System};
 use sum::{Positions, Sum};
 
@@ -37,7 +37,7 @@ pub(crate) struct Equations<'a> {
     /// Slip memories of the contacts at the last accepted step.
     pub(crate) memories: &'a [Memory],
     /// Present law of each contact.
-    pub(crate) modes: &'a [Mode],
+    pub(crate) modes: &'a [Law],
     pub(crate) blocks: &'a [BlockState],
     pub(crate) layout: Layout,
     /// Whether a step may cross corners of waveforms, as fixed steps do.
@@ -55,8 +55,8 @@ impl<'a> Equations<'a> {
 }
 
 impl<'a> Equations<'a> {
-    /// Returns slip memory and present law of a contact.
-    pub(crate) fn law(&self, c: usize) -> (&'a Memory, &'a Mode) {
+    /// Returns memory and law of a contact.
+    pub(crate) fn law(&self, c: usize) -> (&'a Memory, &'a Law) {
         (&self.memories[c], &self.modes[c])
     }
 
@@ -182,11 +182,7 @@ impl<'a> Equations<'a> {
         match &contact.press {
             Press::Constant { d, .. } => (*d, 0.0),
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
-                let lull = match &self.modes[contact.place] {
-                    Mode::Lull { lull, .. } => Some(lull),
-                    _ => None,
-                };
-                contact.pressed(self.sample(*w, t), lull)
+                contact.pressed(self.sample(*w, t), self.modes[contact.place].lull())
             }
             Press::Coupled(_) => (0.0, 0.0),
         }

@@ -14,7 +14,6 @@ mod kernel;
 mod slider;
 mod swing;
 
-use crate::contact::{Guard, Mode};
 pub(crate) use closed::Closed;
 use closed::closed_form;
 pub(crate) use followed::Followed;
@@ -25,7 +24,7 @@ pub(crate) use swing::{PhasePoint, Swing};
 use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, is_undamped, treatment};
 use crate::model::{Free, Model};
 use crate::state::State;
-use stickslip_contact::Branch;
+use stickslip_contact::{Branch, Guard};
 
 /// Precomputed data of the time interval between two events, in which all laws are smooth. Scratch memory, recomputed after each event.
 #[derive(Debug, Clone)]
@@ -124,13 +123,13 @@ impl<'a> Interval<'a> {
     ) -> bool {
         let stays = |c: usize| {
             let has_form = |branch: &Branch| is_undamped(&model.contacts[c], branch);
-            self.closed_form(c).is_some() && matches!(&state.modes[c], Mode::Slip(branch) if has_form(branch))
+            self.closed_form(c).is_some() && state.modes[c].branch().is_some_and(has_form)
         };
         if !changed.clone().all(stays) {
             return false;
         }
         for c in changed {
-            if let (Some(place), Mode::Slip(branch)) = (self.places[c], &state.modes[c]) {
+            if let (Some(place), Some(branch)) = (self.places[c], state.modes[c].branch()) {
                 self.closed[place].renew(branch, Guard::of(&model.contacts[c], &state.modes[c]));
                 self.kernel.renew(place, self.closed[place].branch);
             }
@@ -146,7 +145,7 @@ impl<'a> Interval<'a> {
 
     /// Returns whether every contact is open or in gross slip.
     fn slides(&self, state: &State) -> bool {
-        state.modes.iter().all(|mode| mode.is_gross() || *mode == Mode::Open)
+        state.modes.iter().all(|mode| mode.is_gross() || mode.is_open())
     }
 
     /// Computes the constants of the interval that begins at a given state.

@@ -19,13 +19,13 @@ mod expected;
 mod tally;
 mod why;
 
-use crate::contact::{Contact, Mode, Press};
+use crate::contact::Contact;
 pub use expected::Expected;
 pub use tally::Tally;
 pub use why::Why;
 
 use crate::model::Model;
-use stickslip_contact::Branch;
+use stickslip_contact::{Branch, Law};
 
 /// Smallest tolerance at which explicit methods with fewer stages are used near events.
 const TIGHTEST_BRIEF: f64 = 1e-6;
@@ -212,22 +212,18 @@ pub(crate) fn is_undamped(contact: &Contact, branch: &Branch) -> bool {
 
 /// Returns the treatment of a contact under a law, with the reason. `followed` returns whether the prescribed part of u has a closed form.
 #[inline(always)]
-pub(crate) fn treatment(contact: &Contact, mode: &Mode, followed: impl FnOnce() -> bool) -> (Treatment, Why) {
-    match (mode, &contact.press) {
-        _ if contact.is_never_pressed() => (Treatment::Spared, Why::NeverPressed),
-        (Mode::Open, _) => (Treatment::Apart, Why::OnlyTheGap),
-        (Mode::Slip(branch), Press::Constant { .. }) if is_undamped(contact, branch) => {
-            if followed() {
-                (Treatment::Closed, Why::OneEdge)
-            } else {
-                (Treatment::General, Why::CurvedFollower)
-            }
-        }
-        (Mode::Slip(_), Press::Constant { .. }) => (Treatment::General, Why::ContactDamping),
-        (Mode::Slip(_), _) => (Treatment::General, Why::VaryingIndentation),
-        (Mode::Grow, _) => (Treatment::General, Why::Growth),
-        (Mode::Lull { .. }, _) => (Treatment::General, Why::BetweenSprings),
-        (Mode::Whole { .. }, _) if contact.inert => (Treatment::General, Why::NoFriction),
-        (Mode::Whole { .. }, _) => (Treatment::General, Why::WholeLaw),
-    }
+pub(crate) fn treatment(contact: &Contact, law: &Law, followed: impl FnOnce() -> bool) -> (Treatment, Why) {
+    let why = match law.branch() {
+        _ if contact.is_never_pressed() => return (Treatment::Spared, Why::NeverPressed),
+        _ if law.is_open() => return (Treatment::Apart, Why::OnlyTheGap),
+        Some(_) if !contact.is_constant() => Why::VaryingIndentation,
+        Some(branch) if !is_undamped(contact, branch) => Why::ContactDamping,
+        Some(_) if followed() => return (Treatment::Closed, Why::OneEdge),
+        Some(_) => Why::CurvedFollower,
+        None if law.grows() => Why::Growth,
+        None if law.lull().is_some() => Why::BetweenSprings,
+        None if contact.inert => Why::NoFriction,
+        None => Why::WholeLaw,
+    };
+    (Treatment::General, why)
 }

@@ -8,13 +8,13 @@ pub use trace::Trace;
 
 use crate::Model;
 use crate::component::Component;
-use crate::contact::{Contact, Mode};
+use crate::contact::Contact;
 use crate::equations::{Components, Equations};
 use crate::event::{Event, Source};
 use crate::model::{Binding, Body, Link};
 use crate::scene::Axis;
 use crate::state::State;
-use stickslip_contact::{ContactState, Memory, Outcome, Segment};
+use stickslip_contact::{Apex, ContactState, Memory, Outcome, Segment};
 
 /// Receiver of a run's output. Recording does not affect the trajectory.
 ///
@@ -290,8 +290,9 @@ fn contact_columns(
     let straight = contact.goes_straight(equations.pieces);
     // In full stick force and energy are states, and every spring sticks. Integration errors may make a small energy negative; it
     // is not clipped, as the balance would change.
-    let mut outcome = match (state.modes[c], slot.filter(|_| !straight)) {
-        (Mode::Grow, Some(slot)) => Outcome {
+    let grown = slot.filter(|_| !straight && state.modes[c].grows());
+    let mut outcome = match grown {
+        Some(slot) => Outcome {
             force: y(layout.force(slot)),
             elastic: y(layout.elastic(slot)),
             friction: 0.0,
@@ -306,10 +307,10 @@ fn contact_columns(
     }
     if let Some(slot) = slot {
         // Under the full force law and on a straight path nothing is integrated: the chord has its own friction work.
-        let chord = straight || matches!(state.modes[c], Mode::Whole { .. });
+        let chord = straight || state.modes[c].is_whole();
         let rest = match chord {
             true => outcome.friction,
-            false => contact.beside_growth(&equations.memories[c], motion.apex()),
+            false => beside_growth(contact, &equations.memories[c], motion.apex()),
         };
         outcome.friction = y(layout.friction(slot)) + rest;
     }
@@ -323,7 +324,7 @@ fn contact_columns(
     // The force contains contact damping; energy and friction belong to the springs.
     let damping = match contact.interface.damping() {
         0.0 => 0.0,
-        _ => contact.viscosity(equations.law(c), &motion) * motion.du,
+        _ => equations.viscosity(contact, &motion) * motion.du,
     };
     books.elastic += normal + count * outcome.elastic;
     books.friction += friction;
@@ -346,4 +347,9 @@ pub(crate) fn link_energy(equations: &Equations<'_>, link: &Link, t: f64, y: &im
     let stroke = equations.stroke(link, &at).value;
     let length = equations.read(&link.elongation, &at).value;
     0.5 * link.stiffness * (stroke - length).powi(2) - link.preload * length
+}
+
+/// Returns the friction work of a chord where it leaves a path of growth, J. Its rates do not contain this work.
+fn beside_growth(contact: &Contact, memory: &Memory, to: Apex) -> f64 {
+    memory.branching().map_or(0.0, |branching| branching.beside_growth(&contact.interface, to))
 }

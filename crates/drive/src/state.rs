@@ -17,13 +17,13 @@ pub(crate) use underway::{
     Underway, Whereabouts, Window,
 };
 
-use crate::contact::{Contact, Mode};
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::method::Tally;
 use crate::model::{Balanced, Binding, BlockState};
 use crate::scene::Axis;
 use crate::{Model, Piece, RunError, record};
-use stickslip_contact::{Apex, ContactError, Memory, Move};
+use stickslip_contact::{Apex, ContactError, Law, Memory, Move};
 
 /// State of a drive, which can be cloned, compared and saved. A run from a copied state gives identical bits.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,8 +36,8 @@ pub struct State {
     pub(crate) shifts: Vec<f64>,
     /// Slip memory of each contact, with displacements relative to the shifted origins.
     pub(crate) memories: Vec<Memory>,
-    /// Force law of each contact since its last event.
-    pub(crate) modes: Vec<Mode>,
+    /// Law of each contact since its last event.
+    pub(crate) modes: Vec<Law>,
     /// Whether the last path of each contact was growth in full stick that may continue.
     pub(crate) grew: Vec<bool>,
     /// Laws and memories of the blocks.
@@ -143,7 +143,7 @@ impl Model {
         let contacts = self.contacts.len();
         refill(&mut state.shifts, layout.free, 0.0);
         // A run chooses laws from velocities and accelerations at its start.
-        refill(&mut state.modes, contacts, Mode::Whole { sense: 0.0 });
+        refill(&mut state.modes, contacts, Law::whole(0.0));
         refill(&mut state.grew, contacts, false);
         refill(&mut state.friction, contacts, 0.0);
         (state.jumps, state.lost, state.origin, state.step) = (0.0, 0.0, 0.0, 0.0);
@@ -239,17 +239,18 @@ impl State {
     /// Recomputes the force law of contact `c`, with the same sense of slip, after its memory was replaced and u increased by `by` (m).
     pub(crate) fn renew_law(&mut self, model: &Model, c: usize, by: f64) {
         let (contact, memory) = (&model.contacts[c], &self.memories[c]);
-        match (&mut self.modes[c], memory.branching()) {
-            (Mode::Slip(branch), Some(curve)) => {
-                *branch = curve.branch(&contact.interface, branch.sense(), 0.0);
+        let law = &mut self.modes[c];
+        match memory.branching() {
+            Some(curve) if law.branch().is_some() => {
+                *law = Law::slip(curve.branch(&contact.interface, law.sense(), 0.0));
             }
-            (Mode::Grow, _) => {
+            _ if law.grows() => {
                 let (Some(slot), layout) = (contact.slot, model.layout()) else { return };
                 let now = memory.preview(&contact.interface, memory.apex());
                 self.y[layout.force(slot)] = now.force;
                 self.y[layout.elastic(slot)] = now.elastic;
             }
-            (mode, _) => mode.shift(by),
+            _ => law.shift(by),
         }
     }
 
@@ -301,8 +302,8 @@ impl State {
         self.pieces.iter().map(|piece| piece.end).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the slip memory and the force law of contact `c`.
-    pub(crate) fn law(&self, c: usize) -> (&Memory, &Mode) {
+    /// Returns memory and law of a contact.
+    pub(crate) fn law(&self, c: usize) -> (&Memory, &Law) {
         (&self.memories[c], &self.modes[c])
     }
 

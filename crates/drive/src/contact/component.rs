@@ -1,12 +1,12 @@
 //! Implementation of the trait [`Component`] for contacts.
 
-use super::{Contact, Guard, Mode, Motion};
+use super::{Contact, Motion, fired};
 use crate::EventKind;
 use crate::component::{Component, Moment, Standing, States};
-use stickslip_contact::{ContactError, Memory, Segment};
+use stickslip_contact::{ContactError, Guard, Law, Memory, Segment};
 
 impl Component for Contact {
-    type Law = Mode;
+    type Law = Law;
     type Memory = Memory;
     type Guard = Guard;
     type Inputs = Motion;
@@ -24,31 +24,31 @@ impl Component for Contact {
         }
     }
 
-    fn guards(&self, law: &Mode) -> &[Guard] {
+    fn guards(&self, law: &Law) -> &[Guard] {
         Guard::of(self, law)
     }
 
     #[inline]
-    fn guard(&self, guard: Guard, standing: Standing<'_, Mode, Memory>, at: &Moment<'_, Motion>) -> f64 {
+    fn guard(&self, guard: Guard, standing: Standing<'_, Law, Memory>, at: &Moment<'_, Motion>) -> f64 {
         guard.value(self, (standing.memory, standing.law), at.inputs)
     }
 
     fn next(
         &self,
         guard: Guard,
-        standing: Standing<'_, Mode, Memory>,
+        standing: Standing<'_, Law, Memory>,
         at: &Moment<'_, Motion>,
-    ) -> (EventKind, Mode) {
-        let (kind, course) = guard.fired(self, standing.law, at.inputs);
-        (kind, Mode::of(self, standing.memory, (course, at.inputs), 0.0, 0.0))
+    ) -> (EventKind, Law) {
+        let (kind, course) = fired(self, guard, standing.law, at.inputs);
+        (kind, Law::of(self, standing.memory, (course, at.inputs), 0.0, 0.0))
     }
 
     fn commit(&self, memory: &mut Memory, segment: &Segment) -> Result<f64, ContactError> {
         memory.commit(&self.interface, *segment)
     }
 
-    /// Returns the elastic energy of normal and tangential deformation of one contact.
-    fn energy(&self, standing: Standing<'_, Mode, Memory>, at: &Moment<'_, Motion>) -> f64 {
+    /// Normal and tangential energy of one contact.
+    fn energy(&self, standing: Standing<'_, Law, Memory>, at: &Moment<'_, Motion>) -> f64 {
         let normal = self.interface.normal_energy(at.inputs.d);
         normal + standing.memory.preview(&self.interface, at.inputs.apex()).elastic
     }

@@ -10,7 +10,7 @@ mod books;
 
 use super::sum::{Components, View};
 use super::{Equations, Sample};
-use crate::contact::{Contact, Mode, Motion};
+use crate::contact::{Contact, Motion};
 use crate::model::{Balanced, Link, Pull};
 use crate::scene::Axis;
 
@@ -74,11 +74,9 @@ impl Equations<'_> {
     fn moment(&self, balanced: &Balanced, (place, rate): (f64, f64), at: &Instant<'_>) -> f64 {
         let left = |(c, a): &(usize, f64)| {
             let along = a * place + self.rest(*c, balanced.axis, at).0;
-            match (&self.modes[*c], balanced.axis) {
+            match (self.modes[*c].branch(), balanced.axis) {
                 (_, Axis::Z) => along,
-                (Mode::Slip(branch), _) => {
-                    -branch.beyond(self.depth_of(&self.model.contacts[*c], at).0, along)
-                }
+                (Some(branch), _) => -branch.beyond(self.depth_of(&self.model.contacts[*c], at).0, along),
                 _ => f64::INFINITY,
             }
         };
@@ -112,7 +110,7 @@ impl Equations<'_> {
 
     /// Returns whether the tangential force of contact `c` is a state at present.
     fn grows(&self, c: usize) -> bool {
-        self.modes[c] == Mode::Grow && self.model.contacts[c].slot.is_some()
+        self.modes[c].grows() && self.model.contacts[c].slot.is_some()
     }
 
     /// Returns the position at which a single contact balances a load, in closed form; `None` if the contact's law has no inverse.
@@ -121,9 +119,9 @@ impl Equations<'_> {
         let force = pull / (a * contact.count);
         let (rest, _) = self.rest(c, axis, at);
         if axis == Axis::Z {
-            return Some(a * (contact.depth(&self.modes[c], force) - rest));
+            return Some(a * (self.modes[c].depth(contact, force) - rest));
         }
-        let Mode::Slip(branch) = &self.modes[c] else { return None };
+        let branch = self.modes[c].branch()?;
         let (d, _) = self.depth_of(contact, at);
         let law = &contact.interface;
         let u = branch.displacement(law, d, force, law.reduced_force(d))?;
@@ -206,7 +204,7 @@ impl Equations<'_> {
         let along = a * place + rest;
         let weight = a * contact.count;
         if axis == Axis::Z {
-            let [force, stiffness] = contact.press(&self.modes[c], along);
+            let [force, stiffness] = self.modes[c].press(contact, along);
             let stiffness = contact.count * stiffness;
             return Share { force: weight * force, stiffness, drift: a * stiffness * drift };
         }
@@ -214,7 +212,7 @@ impl Equations<'_> {
         let motion = Motion { d, u: along, dd, du: 0.0 };
         let grown = || contact.slot.map_or(0.0, |slot| at.component(self.layout.force(slot)));
         let [force, stiffness, coupling] =
-            contact.tangents((&self.memories[c], &self.modes[c]), &motion, grown);
+            self.modes[c].tangents((contact, &self.memories[c]), &motion, grown);
         Share {
             force: weight * force,
             stiffness: contact.count * stiffness,

@@ -5,7 +5,7 @@
 
 use super::sum::{Sum, View};
 use super::{Equations, Sample};
-use crate::contact::{Mode, Motion, Press};
+use crate::contact::{Contact, Motion, Press};
 use crate::model::{Link, Stroke};
 
 impl Equations<'_> {
@@ -35,17 +35,17 @@ impl Equations<'_> {
     /// where βG\*m u̇ is the damping of sticking springs.
     #[inline(never)]
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
-        let contact = &self.model.contacts[c];
+        let (contact, law) = (&self.model.contacts[c], &self.modes[c]);
         let u = self.read(&contact.u, at);
         let (d, dd, reduced_force) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
-                let reduced_force = match &self.modes[c] {
-                    Mode::Lull { lull, .. } => lull.reduced_force(d.value),
-                    _ => contact.interface.reduced_force(d.value),
+                let reduced_force = match law.lull() {
+                    Some(lull) => lull.reduced_force(d.value),
+                    None => contact.interface.reduced_force(d.value),
                 };
                 // An open contact exerts no force, even beyond the touch that ends the step.
-                if self.modes[c] != Mode::Open {
+                if !law.is_open() {
                     // M(d) serves both normal force and branch.
                     let press = contact.count * (contact.interface.normal_modulus() * reduced_force);
                     sum.apply(&measure.free, d.driven, -press);
@@ -61,17 +61,17 @@ impl Equations<'_> {
         // On a straight path the slip memory gives all quantities; the state components are not used.
         let straight = contact.goes_straight(self.pieces);
         let slot = contact.slot.filter(|_| self.layout.growing > 0 && !straight);
-        let mut force = match (&self.modes[c], slot) {
-            // Force and friction power share one slip front; the slip memory computes both where the branch is not valid.
-            (Mode::Slip(branch), Some(slot)) if branch.covers(d, u.value) => {
+        let mut force = match (law.branch(), slot) {
+            // Force and friction power share one slip front; the memory computes them where the branch does not apply.
+            (Some(branch), Some(slot)) if branch.covers(d, u.value) => {
                 let [force, friction, _] = branch.drag(&contact.interface, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }
-            (Mode::Grow, None) => self.memories[c].force(&contact.interface, motion.apex()),
+            (None, None) if law.grows() => self.memories[c].force(&contact.interface, motion.apex()),
             (_, slot) => {
                 let grown = || slot.map_or(0.0, |slot| at.component(self.layout.force(slot)));
-                let force = contact.force(self.law(c), &motion, grown);
+                let force = law.force((contact, &self.memories[c]), &motion, grown);
                 if let Some(slot) = slot {
                     self.grow((c, slot), &motion, force, extra);
                 }
@@ -79,7 +79,7 @@ impl Equations<'_> {
             }
         };
         if contact.interface.damping() > 0.0 {
-            let damping = contact.viscosity(self.law(c), &motion);
+            let damping = self.viscosity(contact, &motion);
             // Dissipated in sticking springs, separate from friction.
             sum.damping += contact.count * damping * motion.du * motion.du;
             force += damping * motion.du;
@@ -87,11 +87,18 @@ impl Equations<'_> {
         sum.apply(&contact.u.free, u.driven, -contact.count * force);
     }
 
-    /// Writes the derivatives of force, elastic energy and friction work of a contact that may grow in full stick.
+    /// Returns the viscosity of the sticking springs of one contact, N s/m.
+    pub(crate) fn viscosity(&self, contact: &Contact, motion: &Motion) -> f64 {
+        let (memory, law) = self.law(contact.place);
+        law.viscosity((contact, memory), motion)
+    }
+
+    /// Writes the slopes of the additional components of a growing contact; `extra` begins after the velocities.
     ///
     /// The derivatives are Ḟ in N/s, elastic and friction power in W, for one contact. `extra` are the slopes after the velocities.
     fn grow(&self, (c, slot): (usize, usize), motion: &Motion, force: f64, extra: &mut [f64]) {
-        let rates = self.model.contacts[c].growth_rates(self.law(c), motion, force);
+        let site = (&self.model.contacts[c], &self.memories[c]);
+        let rates = self.modes[c].growth_rates(site, motion, force);
         let from = 2 * self.layout.free;
         extra[self.layout.force(slot) - from] = rates.force;
         extra[self.layout.elastic(slot) - from] = rates.elastic;

@@ -5,8 +5,8 @@
 
 use super::Followed;
 use crate::Sample;
-use crate::contact::{Contact, Guard, Mode, Motion, Press};
-use stickslip_contact::{Apex, Branch, FixedDepthBranch};
+use crate::contact::{Contact, Motion, Press};
+use stickslip_contact::{Apex, Branch, FixedDepthBranch, Guard, Law};
 
 /// Contact at constant indentation on one branch of its slip memory, so that its force is a closed form of u.
 #[derive(Debug, Clone)]
@@ -147,12 +147,11 @@ impl Closed<'_> {
 /// Returns the data of a contact with a closed-form force; `None` if the contact's law has no such form.
 pub(super) fn closed_form<'a>(
     c: usize,
-    (contact, mode): (&'a Contact, &Mode),
+    (contact, mode): (&'a Contact, &Law),
     followed: Option<Followed<'a>>,
 ) -> Option<Closed<'a>> {
-    let (Mode::Slip(branch), Press::Constant { d, reduced_force }) = (mode, &contact.press) else {
-        return None;
-    };
+    let Press::Constant { d, reduced_force } = &contact.press else { return None };
+    let branch = mode.branch()?;
     Some(Closed {
         index: c,
         contact,

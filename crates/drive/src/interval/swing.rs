@@ -24,11 +24,11 @@ mod turning;
 
 use super::Interval;
 use crate::Model;
-use crate::contact::{NEARNESS, Press};
+use crate::contact::Press;
 use crate::model::Free;
 use slip::PartialSlip;
 use std::f64::consts::PI;
-use stickslip_contact::RootSeries;
+use stickslip_contact::{NEARNESS, RootSeries};
 use sway::Sway;
 use turning::{EXACT, ROUGH, softer};
 

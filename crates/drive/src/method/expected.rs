@@ -5,13 +5,13 @@
 //! that is always pressed, are omitted.
 
 use super::{IntervalTraits, Method, SceneTraits, Treatment, Why, choice, stepping, treatment};
-use crate::contact::{Contact, Mode, Motion};
+use crate::contact::{Contact, Motion};
 use crate::equations::Equations;
 use crate::interval::{Followed, Interval, PhasePoint, Swing};
 use crate::model::Model;
 use crate::state::State;
 use crate::{Accuracy, Stepper, Waveform};
-use stickslip_contact::{Apex, Course, Memory, Segment};
+use stickslip_contact::{Apex, Course, Law, Memory, Segment};
 
 /// Integration methods and treatments of contacts that may occur in a run, each with its reason.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -152,7 +152,7 @@ impl Model {
             let memory = self.dragged(contact, &state, lean * phase.dragged);
             let apex = memory.apex();
             let at = Motion { d: apex.d, u: apex.u, dd: 0.0, du: course.sense() };
-            state.modes[c] = Mode::of(contact, &memory, (course, &at), 0.0, 0.0);
+            state.modes[c] = Law::of(contact, &memory, (course, &at), 0.0, 0.0);
             state.memories[c] = memory;
         }
         state

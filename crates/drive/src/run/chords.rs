@@ -16,7 +16,7 @@ use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon};
 use super::ledger::Ledger;
 use super::output::{Opening, Output};
-use crate::contact::{Contact, Mode, Motion};
+use crate::contact::{Contact, Motion};
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::Model;
@@ -26,7 +26,7 @@ use crate::{Plan, RunError, Stepper};
 pub(super) use branches::Weakening;
 use branches::{Branches, GROWING_KNOTS, KNOTS};
 pub(super) use step::Between;
-use stickslip_contact::{ContactState, Memory, Segment};
+use stickslip_contact::{Branch, ContactState, Law, Memory, Segment};
 
 /// Run without event location: accepts steps, writes the output inside them and detects events afterwards.
 pub(super) struct Chords<'a> {
@@ -95,7 +95,7 @@ impl<'a> Chords<'a> {
         let goes_on = matches!(state.underway, Some(Underway::Fixed(_)));
         if self.branches.is_none() || !goes_on {
             // The sense is 0: the slip memory itself detects a reversal within a step.
-            state.modes.fill(Mode::Whole { sense: 0.0 });
+            state.modes.fill(Law::whole(0.0));
         }
         match &state.underway {
             Some(Underway::Fixed(way)) => self.take_up(way, state),
@@ -299,10 +299,7 @@ impl<'a> Chords<'a> {
 
 /// Returns the sliding direction of a contact: the sense of its branch, otherwise its velocity u̇.
 ///
-/// At a reversal that cuts the step, rounding may give u̇ the wrong sign. The branch has the right sign.
-pub(super) fn heading(mode: &Mode, motion: &Motion) -> f64 {
-    match mode {
-        Mode::Slip(branch) => branch.sense(),
-        _ => motion.du,
-    }
+/// At a reversal that cuts the step, rounding may give u̇ the wrong sign. The branch has the right one.
+pub(super) fn heading(law: &Law, motion: &Motion) -> f64 {
+    law.branch().map_or(motion.du, Branch::sense)
 }

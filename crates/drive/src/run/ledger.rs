@@ -7,7 +7,6 @@
 
 use crate::RunError;
 use crate::component::{Passage, Refused};
-use crate::contact::Mode;
 use crate::equations::{Components, Equations};
 use crate::event::EventKind;
 use crate::model::{Model, Wired};
@@ -129,7 +128,7 @@ impl Ledger {
             let contact = &model.contacts[c];
             let knots = state.memories[c].knot_count();
             let is_integral = contact.slot.is_some() && layout.growing > 0;
-            let whole = matches!(state.modes[c], Mode::Whole { .. });
+            let whole = state.modes[c].is_whole();
             let by_commits = !is_integral || whole || contact.goes_straight(&state.pieces);
             // If the run integrates the friction work, only the part without a power is added here.
             let memory = &mut state.memories[c];

@@ -84,7 +84,7 @@ impl Equations<'_> {
             Axis::Z => 0.0,
             _ => {
                 let contact = &self.model.contacts[c];
-                let pressed = contact.press(&self.modes[c], self.depth_of(contact, at).0)[0].max(0.0);
+                let pressed = self.modes[c].press(contact, self.depth_of(contact, at).0)[0].max(0.0);
                 contact.count * contact.interface.friction() * pressed
             }
         };

@@ -1,7 +1,7 @@
 //! Contacts in the precomputed forces of an interval.
 
 use super::length::{Length, Sums, dot, row};
-use crate::contact::{Contact, Mode, Motion, Press};
+use crate::contact::{Contact, Motion, Press};
 use crate::equations::Equations;
 use crate::interval::Closed;
 use crate::model::Model;
@@ -25,8 +25,8 @@ pub(super) struct Moving<'a> {
     contact: &'a Contact,
     u: Length<'a>,
     depth: Depth<'a>,
-    law: Law,
-    /// Indices of the contact's friction work, force and elastic energy in the state, if it may grow in full stick.
+    form: Form,
+    /// Indices of its friction work, force and elastic energy in the state, if it may grow.
     slot: Option<[usize; 3]>,
 }
 
@@ -41,9 +41,9 @@ enum Depth<'a> {
     Prescribed { waveform: &'a Waveform, piece: Piece },
 }
 
-/// Law of a contact.
+/// Law of a contact in the forms of a kernel.
 #[derive(Debug, Clone)]
-enum Law {
+enum Form {
     Slip(Branch),
     Grow,
 }
@@ -86,15 +86,16 @@ impl<'a> Moving<'a> {
         let straight = contact.goes_straight(&state.pieces);
         let layout = model.layout();
         let slot = contact.slot.filter(|_| !straight);
-        let law = match &state.modes[index] {
-            Mode::Slip(branch) => Law::Slip(*branch),
+        let law = &state.modes[index];
+        let form = match law.branch() {
+            Some(branch) => Form::Slip(*branch),
             // Otherwise the memory computes the force.
-            Mode::Grow if slot.is_some() => Law::Grow,
-            _ => return None,
+            None if law.grows() && slot.is_some() => Form::Grow,
+            None => return None,
         };
         let u = Length::of(&contact.u, model, state)?;
         let slot = slot.map(|slot| [layout.friction(slot), layout.force(slot), layout.elastic(slot)]);
-        Some(Self { index, contact, u, depth, law, slot })
+        Some(Self { index, contact, u, depth, form, slot })
     }
 
     /// Adds the contact forces: normal -count·E\*M(d) along d, if bodies press the contact, and tangential -count·(F_x + βG\*m u̇) along u.
@@ -125,15 +126,15 @@ impl<'a> Moving<'a> {
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
         let damped = law.damping() > 0.0;
-        let (force, damping) = match &self.law {
-            Law::Slip(branch) if branch.covers(d, u.value) && (damped || self.slot.is_some()) => {
+        let (force, damping) = match &self.form {
+            Form::Slip(branch) if branch.covers(d, u.value) && (damped || self.slot.is_some()) => {
                 let [force, power, stuck] = branch.drag(law, &motion, reduced_force);
                 if let Some([friction, ..]) = self.slot {
                     extra[friction - 2 * N] = power;
                 }
                 (force, law.viscosity(law.tangential_modulus() * stuck))
             }
-            Law::Slip(branch) if branch.covers(d, u.value) => {
+            Form::Slip(branch) if branch.covers(d, u.value) => {
                 (branch.force(law, d, u.value, reduced_force), 0.0)
             }
             // During growth, and where the branch does not apply, the memory computes the force.
@@ -155,16 +156,16 @@ impl<'a> Moving<'a> {
         motion: &Motion,
         extra: &mut [f64],
     ) -> (f64, f64) {
-        let (contact, law) = (self.contact, eq.law(self.index));
+        let (contact, (memory, law)) = (self.contact, eq.law(self.index));
         let grown = || self.slot.map_or(0.0, |[_, force, _]| y[force]);
-        let force = contact.force(law, motion, grown);
+        let force = law.force((contact, memory), motion, grown);
         if let Some(places) = self.slot {
-            let rates = contact.growth_rates(law, motion, force);
+            let rates = law.growth_rates((contact, memory), motion, force);
             for (place, rate) in places.into_iter().zip([rates.friction, rates.force, rates.elastic]) {
                 extra[place - 2 * N] = rate;
             }
         }
         let damped = contact.interface.damping() > 0.0;
-        (force, if damped { contact.viscosity(law, motion) } else { 0.0 })
+        (force, if damped { law.viscosity((contact, memory), motion) } else { 0.0 })
     }
 }

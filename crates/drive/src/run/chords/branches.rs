@@ -18,12 +18,12 @@
 use super::Chords;
 use super::way::{Way, end_of, kink};
 use crate::RunError;
-use crate::contact::{Contact, Mode, Motion};
+use crate::contact::{Contact, Motion};
 use crate::interval::Interval;
 use crate::method::Method;
 use crate::state::State;
 use crate::{Model, record::Record};
-use stickslip_contact::{Apex, Branch, Memory, Segment};
+use stickslip_contact::{Apex, Branch, Law, Memory, Segment};
 
 /// Largest number of reversals that a slip memory keeps.
 pub(super) const KNOTS: usize = 256;
@@ -167,8 +167,8 @@ impl<'a> Chords<'a> {
         let mut first = f64::INFINITY;
         for (c, (from, to)) in self.before.iter().zip(&self.motions).enumerate() {
             let (contact, way) = (&self.model.contacts[c], Way { from, to, duration });
-            let end = match &state.modes[c] {
-                Mode::Slip(branch) => end_of(branch, branches.left(c, branch, to), way),
+            let end = match state.modes[c].branch() {
+                Some(branch) => end_of(branch, branches.left(c, branch, to), way),
                 _ if contact.is_constant() => None,
                 // Without a branch there is no next one.
                 _ => kink(contact.interface.stick_slope(), way).map(|share| (share, 0.0)),
@@ -191,12 +191,9 @@ impl<'a> Chords<'a> {
     pub(in crate::run) fn weakens(&self, state: &State) -> Option<Weakening> {
         let due = self.branches.iter().flat_map(|branches| &branches.due);
         let damped = due.filter(|(c, _)| self.model.contacts[*c].is_damped());
-        let ways = damped.filter_map(|(c, sense)| match &state.modes[*c] {
-            Mode::Slip(branch) if branch.sense() == *sense && self.gives_way(*c, branch) => {
-                Some(Weakening::Away)
-            }
-            Mode::Slip(branch) if branch.sense() == *sense => Some(Weakening::Loop),
-            _ => None,
+        let ways = damped.filter_map(|(c, sense)| {
+            let branch = state.modes[*c].branch().filter(|branch| branch.sense() == *sense)?;
+            Some(if self.gives_way(*c, branch) { Weakening::Away } else { Weakening::Loop })
         });
         ways.max()
     }
@@ -227,7 +224,7 @@ impl<'a> Chords<'a> {
                 return None;
             }
             let all = law.viscosity(law.stick_stiffness(motion.d));
-            let holds = contact.viscosity(eq.law(contact.place), &motion) > HELD * all;
+            let holds = eq.viscosity(contact, &motion) > HELD * all;
             holds.then(|| part * way / speed)
         });
         longest.fold(f64::INFINITY, f64::min)
@@ -243,7 +240,7 @@ impl<'a> Chords<'a> {
         self.move_contacts(state, t, y);
         let branches = self.branches.as_ref()?;
         let ends = state.modes.iter().enumerate().filter_map(|(c, mode)| {
-            let Mode::Slip(branch) = mode else { return None };
+            let branch = mode.branch()?;
             let speed = branch.sense() * self.motions[c].du;
             let left = branches.left(c, branch, &self.motions[c]);
             (left >= 0.0 && speed > 0.0 && self.gives_way(c, branch)).then(|| t + left / speed)
@@ -272,7 +269,7 @@ impl<'a> Chords<'a> {
         branches.ended.clear();
         for (c, motion) in self.motions.iter().enumerate() {
             let mut sense = motion.du.signum();
-            if let Mode::Slip(branch) = &state.modes[c] {
+            if let Some(branch) = state.modes[c].branch() {
                 let due = branches.due.iter().find(|(due, _)| *due == c);
                 let turned = branch.sense() * motion.du < 0.0;
                 match due {
@@ -298,14 +295,12 @@ impl<'a> Chords<'a> {
     pub(super) fn branch(&mut self, state: &mut State) {
         let Some(branches) = &mut self.branches else { return };
         for &(c, sense) in &branches.ended {
-            let left = match &state.modes[c] {
-                Mode::Slip(branch) => branch.margin(self.motions[c].d, self.motions[c].u),
-                _ => 0.0,
-            };
+            let Motion { d, u, .. } = self.motions[c];
+            let left = state.modes[c].branch().map_or(0.0, |branch| branch.margin(d, u));
             let next =
                 next_mode(&self.model.contacts[c], &state.memories[c], &self.motions[c], (sense, left));
             // The interval stays valid for a contact that keeps the full force law.
-            branches.current &= matches!((&state.modes[c], &next), (Mode::Whole { .. }, Mode::Whole { .. }));
+            branches.current &= state.modes[c].is_whole() && next.is_whole();
             state.modes[c] = next;
         }
     }
@@ -319,7 +314,7 @@ impl<'a> Chords<'a> {
         for (c, motion) in self.motions.iter().enumerate() {
             state.modes[c] =
                 next_mode(&self.model.contacts[c], &state.memories[c], motion, (motion.du.signum(), 0.0));
-            if let Mode::Slip(branch) = &state.modes[c] {
+            if let Some(branch) = state.modes[c].branch() {
                 self.senses[c] = branch.sense();
             }
         }
@@ -341,10 +336,10 @@ impl<'a> Chords<'a> {
         self.measure(state);
         self.ledger.clear();
         for (c, motion) in self.motions.iter().enumerate() {
-            let turns = match &state.modes[c] {
-                Mode::Slip(branch) => branch.sense() * motion.du < 0.0,
+            let turns = match state.modes[c].branch() {
+                Some(branch) => branch.sense() * motion.du < 0.0,
                 // At rest so far.
-                _ => {
+                None => {
                     state.memories[c].branching().is_some()
                         && keeps_to_branches(&self.model.contacts[c], motion)
                 }
@@ -380,7 +375,7 @@ impl<'a> Chords<'a> {
         self.measure(state);
         self.ledger.clear();
         for (c, motion) in self.motions.iter().enumerate() {
-            if matches!(state.modes[c], Mode::Slip(_)) {
+            if state.modes[c].branch().is_some() {
                 self.ledger.push(c, state.t, Segment::Straight(motion.apex()));
             }
         }
@@ -390,15 +385,15 @@ impl<'a> Chords<'a> {
 
 /// Returns the branch of a contact at constant indentation for the direction `sense`, otherwise the full force law.
 ///
-/// `left` is the remaining length of the previous memory piece, m. A remaining length below [`NEAR`] is an error of the cubic, and the end
-/// counts as reached.
-fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left): (f64, f64)) -> Mode {
+/// `left` is the remaining length of the previous memory piece, m. A remaining length below [`NEAR`] is an error of the
+/// cubic and counts as used up.
+fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left): (f64, f64)) -> Law {
     match memory.branching() {
         Some(branching) if keeps_to_branches(contact, motion) => {
             let slack = if left < NEAR * contact.natural.displacement { left.max(0.0) } else { 0.0 };
-            Mode::Slip(branching.branch(&contact.interface, sense, slack))
+            Law::slip(branching.branch(&contact.interface, sense, slack))
         }
-        _ => Mode::Whole { sense: 0.0 },
+        _ => Law::whole(0.0),
     }
 }
 

@@ -1,14 +1,13 @@
 //! Waveform corners in runs without event location.
 
 use super::Chords;
-use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
 use crate::record::Record;
 use crate::run::stored::stored;
 use crate::state::State;
 use crate::{Event, RunError};
-use stickslip_contact::Segment;
+use stickslip_contact::{Law, Segment};
 
 impl Chords<'_> {
     /// Sets every waveform to its piece at the middle of the step from the current time to `end`.
@@ -109,7 +108,7 @@ impl Chords<'_> {
             state.friction[c] += work;
             friction += work;
             // The next branch depends on the motion after the jump.
-            state.modes[c] = Mode::Whole { sense: 0.0 };
+            state.modes[c] = Law::whole(0.0);
         }
         state.jumps += stored(&self.plain(state), state) - before + friction;
         Ok(())

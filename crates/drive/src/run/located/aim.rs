@@ -11,11 +11,12 @@
 //! Forces with an integer power, as for a cone or a flat punch, need no graded steps.
 
 use super::Located;
-use crate::contact::{Contact, Guard, Mode};
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::model::Measure;
 use crate::quadrature;
 use crate::state::State;
+use stickslip_contact::Guard;
 use stickslip_stepper::{Attempt, Grade};
 
 /// End, distribution of stages and limits of the next step.
@@ -147,10 +148,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let left = end.guard.value(contact, state.law(end.contact), &motion);
         let tells = |unit: f64| left > unit * self.motion.pace.resolved;
-        match &state.modes[end.contact] {
+        match state.modes[end.contact].branch() {
             _ if end.guard == Guard::Contact => tells(contact.natural.depth),
-            Mode::Slip(branch) => branch.ends_in_the_centre() && tells(contact.natural.displacement),
-            _ => false,
+            Some(branch) => branch.ends_in_the_centre() && tells(contact.natural.displacement),
+            None => false,
         }
     }
 
@@ -175,7 +176,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let motion = self.watch.from[c].motion;
         // A contact with constant indentation has no touch.
         !contact.is_constant()
-            && matches!(state.modes[c], Mode::Grow | Mode::Slip(_))
+            && (state.modes[c].grows() || state.modes[c].branch().is_some())
             && motion.d <= self.motion.pace.closeness * motion.dd * step
             && contact.is_steep()
     }
@@ -221,7 +222,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let mut first: Option<Expected> = None;
         for &c in &self.interval.others {
             let contact = &self.setting.model.contacts[c];
-            let Some(measure) = contact.coupling().filter(|_| state.modes[c] != Mode::Open) else { continue };
+            let Some(measure) = contact.coupling().filter(|_| !state.modes[c].is_open()) else { continue };
             if let Some(left) = self.leaves(c, contact, measure, 2.0 * step)
                 && first.is_none_or(|first| left < first.left)
             {

@@ -10,6 +10,7 @@ use crate::contact::{Contact, PLACES};
 use crate::equations::{Components, Equations};
 use crate::model::{Binding, Body, Link, Measure, Stroke};
 use crate::state::{Allowed, State};
+use stickslip_contact::Site;
 
 /// Factor on the tolerance where the force law has kinks that are no events.
 ///

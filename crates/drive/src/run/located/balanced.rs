@@ -2,7 +2,6 @@
 
 use super::Located;
 use crate::RunError;
-use crate::contact::Mode;
 use crate::equations::{Equations, Instant};
 use crate::scene::Axis;
 use crate::state::State;
@@ -19,7 +18,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         for b in 0..model.balanced.len() {
             let along = model.balanced[b].axis;
             let gone = |c: usize| match along {
-                Axis::Z => state.modes[c] == Mode::Open,
+                Axis::Z => state.modes[c].is_open(),
                 _ => state.modes[c].has_given_way(&model.contacts[c]),
             };
             // A load that begins at 0 N has not pressed yet.
@@ -71,13 +70,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The initial value of this state is the current position.
     pub(super) fn carry(&self, state: &mut State, c: usize) {
         let model = self.setting.model;
-        if state.modes[c] != Mode::Grow {
+        if !state.modes[c].grows() {
             return;
         }
         for balanced in model.balanced.iter().filter(|b| b.axis == Axis::X) {
             let joined = balanced.contacts.iter().find(|(own, _)| *own == c);
             let (Some((_, a)), Some(slot)) = (joined, balanced.slot) else { continue };
-            let carried = |(other, _): &(usize, f64)| *other != c && state.modes[*other] == Mode::Grow;
+            let carried = |(other, _): &(usize, f64)| *other != c && state.modes[*other].grows();
             if balanced.contacts.iter().any(carried) {
                 continue;
             }

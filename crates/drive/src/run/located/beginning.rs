@@ -5,9 +5,10 @@
 
 use super::Located;
 use super::watch::Fallen;
-use crate::contact::{Contact, Mode};
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::state::{Grip, State};
+use stickslip_contact::Law;
 use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
@@ -37,10 +38,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.takeoff = None;
         self.interval.count(&mut state.tally);
         let (model, modes) = (self.setting.model, &state.modes);
-        let presses =
-            |(mode, contact): (&Mode, &Contact)| *mode != Mode::Open && contact.coupling().is_some();
+        let presses = |(law, contact): (&Law, &Contact)| !law.is_open() && contact.coupling().is_some();
         // Links and bodies that press contacts oscillate also during slip, so the stability limit applies to their steps.
-        let holds = modes.iter().any(Mode::holds)
+        let holds = modes.iter().any(Law::holds)
             || modes.is_empty()
             || !model.links.is_empty()
             || modes.iter().zip(&model.contacts).any(presses);

@@ -12,13 +12,13 @@
 use super::Located;
 use super::watch::Fallen;
 use crate::RunError;
-use crate::contact::{Contact, Guard, Mode, Motion};
+use crate::contact::{Contact, Motion, fired};
 use crate::equations::{Components, Equations};
 use crate::event::{Event, EventKind, Source};
 use crate::model::Measure;
 use crate::record::Record;
 use crate::state::State;
-use stickslip_contact::Course;
+use stickslip_contact::{Course, Guard, Law};
 use stickslip_stepper::{Attempt, System};
 
 /// Time step of the finite difference of ḋ, as a fraction of the waveform's duration or of the contact's 1/ω.
@@ -67,7 +67,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 // The law that a zero crossing has set uses the slack of its event function. A second choice would lose
                 // it, except for a branch that continues in its sense.
                 let is_kept = |fallen: &Fallen| matches!(fallen, Fallen::Contact(own, guard) if *own == c && !guard.is_edge());
-                if matches!(state.modes[c], Mode::Slip(_)) || !self.watch.fired.iter().any(is_kept) {
+                if state.modes[c].branch().is_some() || !self.watch.fired.iter().any(is_kept) {
                     self.turn(state, c, record)?;
                 }
             }
@@ -96,7 +96,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
         if let Some(change) = guard.change() {
             let at = (&motion, change, left(state));
-            state.modes[c] = state.modes[c].lull(contact, &state.memories[c], at, self.setting.tolerance);
+            state.modes[c] =
+                state.modes[c].relinearised(contact, &state.memories[c], at, self.setting.tolerance);
             return Ok(());
         }
         let (mut kind, course) = self.after(state, (c, guard), &motion);
@@ -120,8 +121,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// decide, because the order of the zero crossings is due to rounding.
     fn after(&mut self, state: &State, (c, guard): (usize, Guard), motion: &Motion) -> (EventKind, Course) {
         let (contact, old) = (&self.setting.model.contacts[c], &state.modes[c]);
-        let fired = guard.fired(contact, old, motion);
-        if !guard.is_edge() || contact.is_constant() || !matches!(old, Mode::Slip(_) | Mode::Grow) {
+        let fired = fired(contact, guard, old, motion);
+        if !guard.is_edge() || contact.is_constant() || !(old.grows() || old.branch().is_some()) {
             return fired;
         }
         if !self.stands(contact, motion) {
@@ -129,11 +130,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         let (dd, du) = self.push(state, c, motion);
         let course = state.memories[c].course(&contact.interface, motion.d, dd, du);
-        let kind = match (old, course) {
-            (_, Course::Open) => EventKind::LiftOff,
-            (Mode::Grow, Course::Grow) => return fired,
-            (Mode::Grow, _) => EventKind::SlipBegins,
-            (_, Course::Grow) => EventKind::FullStick,
+        let kind = match course {
+            Course::Open => EventKind::LiftOff,
+            Course::Grow if old.grows() => return fired,
+            Course::Grow => EventKind::FullStick,
+            _ if old.grows() => EventKind::SlipBegins,
             _ if course.sense() == old.sense() => return fired,
             _ if old.is_gross() => EventKind::GrossSlipEnds,
             _ => EventKind::Reversal,
@@ -160,15 +161,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // The path bends at a corner, so that later growth is a separate piece.
         state.grew[c] = false;
         self.decide(state, c);
-        let kind = match (old, state.modes[c]) {
-            (Mode::Open, Mode::Open) | (Mode::Grow, Mode::Grow) => return Ok(()),
-            (Mode::Open, _) => EventKind::Touch,
-            (_, Mode::Open) => EventKind::LiftOff,
-            (_, Mode::Grow) => EventKind::FullStick,
-            (Mode::Grow, _) => EventKind::SlipBegins,
-            (old, new) if old.sense() == new.sense() => return Ok(()),
-            (old, _) if old.is_gross() => EventKind::GrossSlipEnds,
-            _ => EventKind::Reversal,
+        let new = state.modes[c];
+        let kind = match () {
+            () if old.is_open() && new.is_open() || old.grows() && new.grows() => return Ok(()),
+            () if old.is_open() => EventKind::Touch,
+            () if new.is_open() => EventKind::LiftOff,
+            () if new.grows() => EventKind::FullStick,
+            () if old.grows() => EventKind::SlipBegins,
+            () if old.sense() == new.sense() => return Ok(()),
+            () if old.is_gross() => EventKind::GrossSlipEnds,
+            () => EventKind::Reversal,
         };
         self.note(state, Source::Contact(c), kind, record);
         self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
@@ -186,7 +188,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let course = state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du);
         let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
         // A branch that continues in its sense keeps its starting point.
-        if !same || !matches!(state.modes[c], Mode::Slip(_)) {
+        if !same || state.modes[c].branch().is_none() {
             self.set_law(state, c, (course, &motion), 0.0);
         }
     }
@@ -244,7 +246,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         };
         // Read before the law changes.
         let was_gross = state.modes[c].is_gross();
-        state.modes[c] = Mode::of(contact, &state.memories[c], (course, at), slack, self.setting.tolerance);
+        state.modes[c] = Law::of(contact, &state.memories[c], (course, at), slack, self.setting.tolerance);
         state.grew[c] = false;
         match (was_gross, state.modes[c].is_gross()) {
             (false, true) if state.step > 0.0 => state.stuck_step = state.step,
@@ -254,7 +256,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if contact.balanced {
             self.carry(state, c);
         }
-        if let (Mode::Grow, Some(slot)) = (state.modes[c], contact.slot) {
+        if let Some(slot) = contact.slot.filter(|_| state.modes[c].grows()) {
             // Force and energy begin at those of the slip memory; the slopes add to them.
             let now = state.memories[c].preview(&contact.interface, state.memories[c].apex());
             state.y[self.setting.layout.force(slot)] = now.force;

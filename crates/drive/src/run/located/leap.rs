@@ -8,13 +8,13 @@
 use super::Located;
 use super::watch::Fallen;
 use crate::RunError;
-use crate::contact::Guard;
 use crate::equations::Equations;
 use crate::interval::{Closed, PhasePoint};
 use crate::method::Method;
 use crate::record::Record;
 use crate::run::horizon::Progress;
 use crate::state::{Books, State, beyond};
+use stickslip_contact::Guard;
 use stickslip_stepper::Attempt;
 
 /// Largest velocity, relative to the ends of the arc, at which a point counts as a turning point.

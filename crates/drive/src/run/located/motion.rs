@@ -7,12 +7,13 @@ use super::Setting;
 use super::aim::{Aim, SHRINK, reach, start};
 use super::allowance::Allowance;
 use crate::Waveform;
-use crate::contact::{Contact, Guard};
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::{Free, Model};
 use crate::record;
 use crate::state::{Ahead, Gait, Grip, State, Whereabouts};
+use stickslip_contact::{Guard, Site};
 use stickslip_stepper::{Attempt, End, Grade, Target};
 
 /// Largest velocity that counts as rest, relative to the natural velocity. The value corresponds to several hundred rounding errors.

@@ -10,7 +10,7 @@
 use super::Located;
 use super::motion::Motion;
 use super::watch::Fallen;
-use crate::contact::{Mode, Motion as ContactMotion};
+use crate::contact::Motion as ContactMotion;
 use crate::equations::Equations;
 use crate::state::State;
 use stickslip_contact::Segment;
@@ -92,7 +92,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let span = self.motion.solver.span();
         let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
         let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
-        let (Mode::Grow, Some(slot)) = (state.modes[c], curved) else {
+        let Some(slot) = curved.filter(|_| state.modes[c].grows()) else {
             return self.ledger.push(c, t, Segment::Straight(motion.apex()));
         };
         // Only growth needs the inside of the step, so the dense output is computed here.
@@ -113,7 +113,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.evaluations += self.motion.solver.evaluations() - spent;
         let eq = self.setting.plain(state);
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
-            if contact.is_never_pressed() || contact.is_constant() || state.modes[c] == Mode::Grow {
+            if contact.is_never_pressed() || contact.is_constant() || state.modes[c].grows() {
                 continue;
             }
             for k in 1..BENDS {

@@ -16,10 +16,11 @@ mod side;
 
 use super::watch::{Moving, Watch};
 use super::watched::Watched;
-use crate::contact::{Guard, Motion, NEARNESS};
+use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::interval::Closed;
 use arrayvec::ArrayVec;
+use stickslip_contact::{Guard, NEARNESS};
 use stickslip_stepper::{Attempt, Bracket, Completion, Cubic, Point, root, root_near};
 
 /// Event function that crosses zero in the attempted step, and the time of the crossing, s.

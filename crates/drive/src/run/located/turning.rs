@@ -6,14 +6,14 @@
 
 use super::Located;
 use crate::RunError;
-use crate::contact::{Mode, Motion};
+use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
 use crate::model::Model;
 use crate::record::Record;
 use crate::run::stored::stored;
 use crate::state::{Books, State};
-use stickslip_contact::Segment;
+use stickslip_contact::{Law, Segment};
 use stickslip_stepper::Attempt;
 
 /// Scratch memory for the processing of waveform corners.
@@ -21,7 +21,7 @@ use stickslip_stepper::Attempt;
 pub(super) struct Turning {
     jumps: Jumps,
     /// Contact laws before the corner.
-    pub(super) before: Vec<Mode>,
+    pub(super) before: Vec<Law>,
     /// Waveforms that have reached a corner, and the kind of event.
     turned: Vec<(usize, EventKind)>,
     /// For each block, whether its own law or the law of an input has changed.
@@ -159,7 +159,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return Ok(());
         }
         for contact in model.contacts.iter().filter(|contact| contact.balanced) {
-            state.modes[contact.place] = Mode::Whole { sense: 0.0 };
+            state.modes[contact.place] = Law::whole(0.0);
         }
         match self.setting.plain(state).overloaded(state.t, &|i| state.y[i]) {
             Some((b, forces)) => Err(model.unbalanced(b, state.t, forces)),

@@ -5,11 +5,11 @@
 //!
 //! A swap makes the end of a step the start of the next one. After a jump of accelerations, the start is computed again.
 
-use crate::contact::{Contact, Guard, Mode, Motion};
+use crate::contact::{Contact, Motion};
 use crate::equations::{Components, Equations};
 use crate::interval::{Closed, Interval};
 use crate::model::{Measure, Model};
-use stickslip_contact::Memory;
+use stickslip_contact::{Guard, Law, Memory};
 use stickslip_stepper::{End, Span, Step};
 
 /// Smallest remaining length of a memory piece at which a step ends, in rounding errors of the positions of its bodies.
@@ -169,12 +169,7 @@ impl Watch {
         });
         let open = interval.others.iter().flat_map(|&c| {
             let (contact, law, Moving { motion, second }) = (&eq.model.contacts[c], eq.law(c), &self.from[c]);
-            let guards: &[Guard] = match law.1 {
-                Mode::Slip(_) => &[Guard::Drag],
-                Mode::Grow => &[Guard::Lower, Guard::Upper],
-                _ => &[],
-            };
-            guards.iter().map(move |guard| {
+            law.1.edges().iter().map(move |guard| {
                 falls(guard.value(contact, law, motion), guard.rate(contact, law.1, motion, *second))
             })
         });
@@ -214,12 +209,12 @@ impl Watch {
     ///
     /// The result is ∞ if no slip edge reaches the end of its memory piece with the current motion.
     pub(super) fn expected_of(&self, eq: &Equations<'_>, c: usize, solver: &impl Step) -> f64 {
-        let (contact, mode) = (&eq.model.contacts[c], &eq.modes[c]);
+        let (contact, law) = (&eq.model.contacts[c], &eq.modes[c]);
         let Moving { motion, second } = self.from[c];
-        if let Mode::Lull { .. } = mode {
+        if law.lull().is_some() {
             return lull_end(contact, eq.law(c), &motion, second);
         }
-        let Mode::Slip(branch) = mode else { return f64::INFINITY };
+        let Some(branch) = law.branch() else { return f64::INFINITY };
         // Gross slip has no end and must not hide the ends of other contacts.
         if branch.is_gross() {
             return f64::INFINITY;
@@ -235,7 +230,7 @@ impl Watch {
         // there, and no error estimate shows it.
         let turns = (contact.is_damped() || self.integrates_works) && branch.ends_in_the_centre();
         let speed = if turns { speed.max(f64::MIN_POSITIVE) } else { speed };
-        let pull = Guard::Drag.rate(contact, mode, &motion, second);
+        let pull = Guard::Drag.rate(contact, law, &motion, second);
         reached(left, speed, pull)
     }
 }
@@ -247,8 +242,8 @@ fn is_rounding(left: f64, contact: &Contact, x: impl Fn(usize) -> f64) -> bool {
     left < LAST_PLACES * f64::EPSILON * contact.u.travel(x)
 }
 
-/// Returns the time until the first spring of a row is expected to touch, separate or slip, s.
-fn lull_end(contact: &Contact, law: (&Memory, &Mode), at: &Motion, (bend, pull): (f64, f64)) -> f64 {
+/// Returns when the first spring of a row is expected to touch, separate or slip, s from now.
+fn lull_end(contact: &Contact, law: (&Memory, &Law), at: &Motion, (bend, pull): (f64, f64)) -> f64 {
     let slope = contact.interface.stick_slope();
     let of = |guard: Guard, pull: f64| {
         reached(guard.value(contact, law, at), -guard.rate(contact, law.1, at, (bend, pull)), pull)

@@ -1,9 +1,10 @@
 //! Event functions that can end an interval.
 
 use super::watch::Fallen;
-use crate::contact::{Contact, Guard};
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::interval::Closed;
+use stickslip_contact::Guard;
 
 /// Event function of a component.
 ///

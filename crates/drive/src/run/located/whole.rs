@@ -18,14 +18,14 @@ mod way;
 
 use super::Located;
 use crate::RunError;
-use crate::contact::{Contact, Mode};
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::record::{self, Record};
 use crate::run::horizon::Progress;
 use crate::state::{Detour, State, Whereabouts};
 use blocks::Fall;
-use stickslip_contact::{Memory, Segment, Timed};
+use stickslip_contact::{Law, Memory, Segment, Timed};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, Stepping, System};
 use way::Way;
 
@@ -92,7 +92,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets all contacts to the full force law. The data of the integrator become outdated, because half steps do not use it.
     pub(super) fn take_whole(&mut self, state: &mut State) {
         self.motion.whereabouts = Whereabouts::Behind;
-        state.modes.fill(Mode::Whole { sense: 0.0 });
+        state.modes.fill(Law::whole(0.0));
         state.grew.fill(false);
         self.takeoff = None;
     }

@@ -5,7 +5,6 @@
 
 use super::path::Growth;
 use super::{Located, Motion};
-use crate::contact::Mode;
 use crate::equations::Equations;
 use crate::record::Record;
 use crate::state::State;
@@ -109,7 +108,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let memories = contacts.map(|(c, (contact, memory))| {
             let motion = eq.motion(contact, t, &y);
             let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
-            if let (Mode::Grow, Some(slot)) = (state.modes[c], curved) {
+            if let Some(slot) = curved.filter(|_| state.modes[c].grows()) {
                 let growth = Growth { motion: &self.motion, eq, state, tolerance: self.setting.tolerance };
                 growth.trace((c, slot), (t, &motion), |_, piece| path.push(piece));
             } else {

@@ -4,7 +4,7 @@
 //! the run does not use them. Under a varying normal force they are reported at their own times, under a constant normal force at the end
 //! of the step.
 
-use crate::contact::{Contact, Mode};
+use crate::contact::Contact;
 use crate::event::{EventKind, Source};
 use crate::model::Model;
 use crate::state::State;
@@ -57,7 +57,7 @@ impl Rows {
         self.0[k].1 = now;
         let kind = match (was, now) {
             (false, true) => EventKind::GrossSlip,
-            (true, false) if state.modes[c] != Mode::Open => EventKind::GrossSlipEnds,
+            (true, false) if !state.modes[c].is_open() => EventKind::GrossSlipEnds,
             _ => return None,
         };
         Some((Source::Contact(c), kind))
@@ -79,14 +79,17 @@ impl Rows {
 /// Whether every closed spring of the contact slips in the sliding direction.
 fn slips(contact: &Contact, state: &State) -> bool {
     let law = &contact.interface;
-    match (&state.modes[contact.place], &state.memories[contact.place]) {
-        (Mode::Lull { lull, .. }, _) => lull.sense() != 0.0 && lull.stiffness(law) == 0.0,
+    let mode = &state.modes[contact.place];
+    match (mode.lull(), &state.memories[contact.place]) {
+        (Some(lull), _) => lull.sense() != 0.0 && lull.stiffness(law) == 0.0,
         // At a reversal all springs are still at their limits.
-        (Mode::Whole { sense }, Memory::Row(SpringRow { row, springs })) => match row.lowest(springs, law) {
-            SpringState::SlipForward => *sense >= 0.0,
-            SpringState::SlipBackward => *sense <= 0.0,
-            SpringState::Open | SpringState::Stick => false,
-        },
+        (None, Memory::Row(SpringRow { row, springs })) if mode.is_whole() => {
+            match row.lowest(springs, law) {
+                SpringState::SlipForward => mode.sense() >= 0.0,
+                SpringState::SlipBackward => mode.sense() <= 0.0,
+                SpringState::Open | SpringState::Stick => false,
+            }
+        }
         _ => false,
     }
 }

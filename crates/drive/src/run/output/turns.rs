@@ -6,11 +6,11 @@
 //! These turning points are reported to a record that watches a body; the run does not use them. Turning points are detected by the sign of
 //! u̇ at both ends of a step. A pair of turning points within one step is missed.
 
-use crate::contact::{Contact, Guard};
+use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::model::{Binding, Model};
 use crate::scene::Axis;
-use stickslip_contact::Engine;
+use stickslip_contact::{Engine, Guard};
 use stickslip_stepper::{Bracket, Point, root};
 
 /// Error of the time of a turning point, as a fraction of the step.

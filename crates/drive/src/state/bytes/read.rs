@@ -2,7 +2,6 @@
 
 use super::FIXED;
 use super::generated::generating;
-use crate::contact::Mode;
 use crate::interval::PhasePoint;
 use crate::method::Tally;
 use crate::model::{BlockState, Model, Wired};
@@ -10,7 +9,7 @@ use crate::state::{Ahead, Books, Grip, Layout, Whereabouts};
 use crate::state::{Allowed, Booked, Counts, Crawl, Detour, FixedWay, Gait, Grid, LocatedWay};
 use crate::state::{Generating, State, Stepped, Takeoff, Underway, Window};
 use crate::{Piece, Waveform};
-use stickslip_contact::{Branch, Interface, Lull, Memory, Words};
+use stickslip_contact::{Law, Memory, Words};
 use stickslip_stepper::{Hand, Rejection, StepHistory};
 
 /// Largest number of memory values of a block.
@@ -27,7 +26,7 @@ pub(super) fn state(model: &Model, words: &mut Words<'_>) -> Option<State> {
     for contact in &model.contacts {
         grew.push(words.flag()?);
         memories.push(Memory::read(&contact.interface, &contact.engine, words)?);
-        modes.push(mode(&contact.interface, words)?);
+        modes.push(Law::read(&contact.interface, words)?);
     }
     let blocks = model.blocks.iter().map(|wired| block(model, wired, words)).collect::<Option<_>>()?;
     let (pieces, supplied, generators) = pieces(model, words)?;
@@ -81,18 +80,7 @@ fn option<T>(words: &mut Words<'_>, read: impl FnOnce(&mut Words<'_>) -> Option<
     if words.flag()? { read(words).map(Some) } else { Some(None) }
 }
 
-fn mode(law: &Interface, words: &mut Words<'_>) -> Option<Mode> {
-    Some(match words.word()? {
-        0 => Mode::Open,
-        1 => Mode::Grow,
-        2 => Mode::Slip(Branch::read(law, words)?),
-        3 => Mode::Whole { sense: words.finite()? },
-        4 => Mode::Lull { lull: Lull::read(law, words)?, sense: words.finite()? },
-        _ => return None,
-    })
-}
-
-/// Reads the state of a block. Its memory must have the initial length, because the block accesses it by index.
+/// Reads a block; its memory must have its initial length, as the block indexes it.
 fn block(model: &Model, wired: &Wired, words: &mut Words<'_>) -> Option<BlockState> {
     let law = usize::try_from(words.word()?).ok().filter(|law| *law < wired.block().laws())?;
     let (_, start) = wired.block().start(&model.signals().first_inputs(wired));

@@ -1,7 +1,6 @@
 //! Writing of a state, in the order of [`read`](super::read).
 
 use super::FIXED;
-use crate::contact::Mode;
 use crate::model::Model;
 use crate::state::{Ahead, Books, Counts, Grip, Whereabouts};
 use crate::state::{Booked, Detour, FixedWay, Gait, LocatedWay, State, Stepped, Takeoff, Underway, Window};
@@ -21,7 +20,7 @@ pub(super) fn state(state: &State, model: &Model, words: &mut Vec<u64>) {
     for c in 0..state.memories.len() {
         page.flag(state.grew[c]);
         state.memories[c].write(page.0);
-        page.mode(&state.modes[c]);
+        state.modes[c].write(page.0);
     }
     for block in &state.blocks {
         page.0.extend([block.law as u64, block.memory.len() as u64]);
@@ -65,24 +64,7 @@ impl Page<'_> {
         }
     }
 
-    fn mode(&mut self, mode: &Mode) {
-        match mode {
-            Mode::Open => self.0.push(0),
-            Mode::Grow => self.0.push(1),
-            Mode::Slip(branch) => {
-                self.0.push(2);
-                branch.write(self.0);
-            }
-            Mode::Whole { sense } => self.0.extend([3, sense.to_bits()]),
-            Mode::Lull { lull, sense } => {
-                self.0.push(4);
-                lull.write(self.0);
-                self.0.push(sense.to_bits());
-            }
-        }
-    }
-
-    /// Writes the index of a waveform piece. Pieces of inputs and generators have no index; their data are written instead.
+    /// Writes the index of a piece. For inputs and generators, whose pieces have no index, writes its ends.
     fn piece(&mut self, waveform: &Waveform, piece: &Piece) {
         match (waveform.interpolation(), waveform.generator()) {
             (None, None) => self.0.push(piece.index),

@@ -1,10 +1,11 @@
 //! Values and rates of event functions at both ends of a step and inside it, and their near-zero bands.
 
 use super::{Search, Seen};
-use crate::contact::{Contact, Guard, Motion, bands};
+use crate::contact::{Contact, Motion};
 use crate::equations::Equations;
 use crate::run::located::watch::Moving;
 use crate::run::located::watched::Watched;
+use stickslip_contact::{Guard, bands};
 use stickslip_stepper::{Attempt, Completion, Span};
 
 impl<A: for<'q> Attempt<Equations<'q>>> Search<'_, '_, A> {

@@ -3,9 +3,10 @@
 //! This distance is no polynomial, because the curve has breakpoints. With the dense output, values and rates cost little.
 
 use super::{LOOKS, Search};
-use crate::contact::{Contact, Guard, Motion};
+use crate::contact::{Contact, Motion};
 use crate::equations::Equations;
 use crate::run::located::watched::Watched;
+use stickslip_contact::Guard;
 use stickslip_stepper::{Attempt, Completion};
 
 /// Fractions of a step, near its start, at which the distance is checked before the fractions [`LOOKS`].

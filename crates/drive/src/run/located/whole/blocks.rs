@@ -7,12 +7,12 @@
 use super::way::Way;
 use super::{Halves, Times};
 use crate::RunError;
-use crate::contact::{NEARNESS, bands};
 use crate::equations::Equations;
 use crate::record::Record;
 use crate::run::located::Located;
 use crate::run::located::watch::Fallen;
 use crate::state::State;
+use stickslip_contact::{NEARNESS, bands};
 use stickslip_stepper::{Attempt, Bracket, Point, root};
 
 /// Number of evaluations of an event function in a step: at the start of the step, and at the middle and end of each half step.

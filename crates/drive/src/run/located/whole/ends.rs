@@ -8,6 +8,7 @@ use crate::run::located::Located;
 use crate::state::{Books, Detour, State};
 use crate::{EventKind, RunError, Source};
 use std::f64::consts::TAU;
+use stickslip_contact::Site;
 use stickslip_stepper::Attempt;
 
 /// Length of the first interval of step doubling, in natural periods.
