@@ -51,7 +51,9 @@ pub struct Curve {
     /// Current indentation and displacement.
     apex: Apex,
     front: Front,
-    /// Range of slopes at which further growth of the contact is merged into the last piece.
+    /// Direction in which the contact slides after it has broken loose; 0 otherwise, and always with one friction coefficient.
+    slides: f64,
+    /// Slopes at which collinear growth may be merged into the last piece.
     range: SlopeRange,
     /// Largest number of breakpoints.
     capacity: usize,
@@ -89,6 +91,7 @@ impl Curve {
             knots: Vec::with_capacity(capacity.min(Self::ROOM)),
             apex: at,
             front: Front::STICK,
+            slides: 0.0,
             range: SlopeRange::ALL,
             capacity,
             merged: Merged::default(),
@@ -106,7 +109,7 @@ impl Curve {
             self.knots.push(first.grow(law, at.d, 0.0, at.u));
         }
         (self.apex, self.front, self.range) = (at, Front::STICK, SlopeRange::ALL);
-        self.merged = Merged::default();
+        (self.slides, self.merged) = (0.0, Merged::default());
     }
 
     /// Allocates the space of a new curve, which a copy or a deserialized curve lacks.
@@ -117,10 +120,10 @@ impl Curve {
 
     /// Copies another curve into this one and reuses the allocated space.
     pub(crate) fn copy(&mut self, from: &Self) {
-        let Self { knots, apex, front, range, capacity, merged } = from;
+        let Self { knots, apex, front, slides, range, capacity, merged } = from;
         self.knots.clone_from(knots);
         (self.apex, self.front, self.range) = (*apex, *front, *range);
-        (self.capacity, self.merged) = (*capacity, *merged);
+        (self.slides, self.capacity, self.merged) = (*slides, *capacity, *merged);
     }
 
     /// Limits the number of breakpoints (at least 8). Excess breakpoints with the smallest effect are removed, and their error is recorded.
@@ -296,7 +299,7 @@ impl Curve {
                     Told::BesidePower => sweep::beside(law, &self.knots, from, to),
                 };
                 self.knots.clear();
-                self.front = Front::STICK;
+                (self.front, self.slides) = (Front::STICK, 0.0);
                 friction
             }
             Drag::Rest => 0.0,

@@ -297,18 +297,33 @@ impl Memory {
     #[inline]
     pub fn trial(&self, law: &Interface, to: impl Into<Timed<Move>>) -> Response {
         let to = to.into();
-        either!(self, engine => Tangential::trial(engine, law, to))
+        match (law.kinetic(), to.path) {
+            (Some(kinetic), Move::Chord(at)) => self.trial_breaking(
+                [law, kinetic],
+                at,
+                |memory, law| either!(memory, engine => Tangential::trial(engine, law, to)),
+            ),
+            _ => either!(self, engine => Tangential::trial(engine, law, to)),
+        }
     }
 
     /// Returns the tangential force F_x at the end of a straight path, N.
     #[inline]
     pub fn force(&self, law: &Interface, to: Apex) -> f64 {
-        either!(self, engine => Tangential::force(engine, law, to))
+        match law.kinetic() {
+            Some(_) => self.trial(law, Move::Chord(to)).force,
+            None => either!(self, engine => Tangential::force(engine, law, to)),
+        }
     }
 
     /// Returns force, energies and state at the end of a straight path, including the friction work.
     pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {
-        either!(self, engine => Tangential::preview(engine, law, to))
+        let one =
+            |memory: &Self, law: &Interface| either!(memory, engine => Tangential::preview(engine, law, to));
+        match law.kinetic() {
+            Some(kinetic) => self.preview_breaking([law, kinetic], to, one),
+            None => one(self, law),
+        }
     }
 
     /// Commits a segment and returns its friction work, J. After an error the memory is unchanged.
@@ -318,7 +333,18 @@ impl Memory {
         segment: impl Into<Timed<Segment>>,
     ) -> Result<f64, ContactError> {
         let segment = segment.into();
-        either!(self, engine => Tangential::commit(engine, law, segment))
+        let one = |memory: &mut Self, law: &Interface, path: Segment| {
+            let segment = Timed { path, ..segment };
+            either!(memory, engine => Tangential::commit(engine, law, segment))
+        };
+        match (law.kinetic(), segment.path) {
+            (None, _) => one(self, law, segment.path),
+            (Some(_), Segment::Grown { .. }) => {
+                self.hold();
+                one(self, law, segment.path)
+            }
+            (Some(kinetic), path) => self.commit_breaking([law, kinetic], path.end(), one),
+        }
     }
 
     /// Commits a segment and returns the part of its friction work that [`Branch::friction_power`] does not contain, J.
@@ -331,7 +357,18 @@ impl Memory {
         segment: impl Into<Timed<Segment>>,
     ) -> Result<f64, ContactError> {
         let segment = segment.into();
-        either!(self, engine => Tangential::commit_beside_power(engine, law, segment))
+        let one = |memory: &mut Self, law: &Interface, path: Segment| {
+            let segment = Timed { path, ..segment };
+            either!(memory, engine => Tangential::commit_beside_power(engine, law, segment))
+        };
+        match (law.kinetic(), segment.path) {
+            (None, _) => one(self, law, segment.path),
+            (Some(_), Segment::Grown { .. }) => {
+                self.hold();
+                one(self, law, segment.path)
+            }
+            (Some(kinetic), path) => self.commit_breaking([law, kinetic], path.end(), one),
+        }
     }
 
     /// Returns the contact radius at an indentation d (m), m: a(d), or for a row half the length in contact.

@@ -1,4 +1,4 @@
-//! Constant data of a contact: effective moduli, profile and friction coefficient.
+//! Constant data of a contact: effective moduli, profile and friction coefficients.
 
 use crate::{Pair, Profile, Springs};
 use std::sync::Arc;
@@ -16,12 +16,25 @@ pub struct Interface {
     damping: f64,
     /// Row of springs that replaces the profile in the normal direction.
     springs: Option<Arc<Springs>>,
+    /// The same interface with the kinetic friction coefficient μ_k as its only one, if μ_k is below μ.
+    kinetic: Option<Arc<Interface>>,
 }
 
-/// Error: the friction coefficient is out of its range.
+/// Error: a friction coefficient is out of its range.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("expected a coefficient of friction between 0 and 1000, got {0}")]
-pub struct FrictionError(pub f64);
+pub enum FrictionError {
+    /// The coefficient is out of [0, [`Interface::MAX_FRICTION`]].
+    #[error("expected a coefficient of friction between 0 and 1000, got {0}")]
+    Range(f64),
+    /// The kinetic coefficient is above the static one.
+    #[error("expected a kinetic coefficient of friction of at most the static one, {most}, got {kinetic}")]
+    Kinetic {
+        /// Kinetic coefficient that was given.
+        kinetic: f64,
+        /// Static coefficient.
+        most: f64,
+    },
+}
 
 impl Interface {
     /// Largest friction coefficient. Larger values would practically mean full stick.
@@ -30,28 +43,52 @@ impl Interface {
 
     /// Creates an interface from a pair, a profile and a friction coefficient μ in [0, [`Self::MAX_FRICTION`]].
     pub fn new(pair: Pair, profile: Profile, friction: f64) -> Result<Self, FrictionError> {
-        let mut interface = Self { pair, friction: 0.0, slope: 0.0, profile, damping: 0.0, springs: None };
+        let mut interface =
+            Self { pair, friction: 0.0, slope: 0.0, profile, damping: 0.0, springs: None, kinetic: None };
         interface.set_friction(friction)?;
         Ok(interface)
     }
 
-    /// Sets the friction coefficient μ.
+    /// Sets the friction coefficient μ, the static one where there are two. A kinetic coefficient keeps its ratio to it.
     ///
     /// # Errors
     /// A value out of [0, [`Self::MAX_FRICTION`]]; the old value then remains.
     pub fn set_friction(&mut self, friction: f64) -> Result<(), FrictionError> {
         if !(0.0..=Self::MAX_FRICTION).contains(&friction) {
-            return Err(FrictionError(friction));
+            return Err(FrictionError::Range(friction));
+        }
+        if let Some(kinetic) = self.kinetic.as_mut().map(Arc::make_mut) {
+            kinetic.set_friction(kinetic.friction * (friction / self.friction))?;
         }
         self.friction = friction;
         self.slope = friction * self.pair.normal_modulus() / self.pair.tangential_modulus();
         Ok(())
     }
 
+    /// Sets the kinetic friction coefficient μ_k in [0, μ]. μ is then the static coefficient μ_s.
+    ///
+    /// Partial slip obeys μ_s. When the last spring reaches its limit, the contact breaks loose: the limits of all springs fall to μ_k
+    /// at once. When it stops, partial slip obeys μ_s again, from the stretches at which it stopped.
+    ///
+    /// # Errors
+    /// A value above μ or below 0.
+    pub fn with_kinetic_friction(mut self, kinetic: f64) -> Result<Self, FrictionError> {
+        if !(0.0..=self.friction).contains(&kinetic) {
+            return Err(FrictionError::Kinetic { kinetic, most: self.friction });
+        }
+        self.kinetic = None;
+        if kinetic < self.friction {
+            let mut slower = self.clone();
+            slower.set_friction(kinetic)?;
+            self.kinetic = Some(Arc::new(slower));
+        }
+        Ok(self)
+    }
+
     /// Returns the interface without friction.
     #[must_use]
     pub fn frictionless(self) -> Self {
-        Self { friction: 0.0, slope: 0.0, ..self }
+        Self { friction: 0.0, slope: 0.0, kinetic: None, ..self }
     }
 
     /// Adds viscous damping of the sticking springs with the time constant β, s, at least 0.
@@ -62,7 +99,9 @@ impl Interface {
     /// plane closes. A mass on a sticking contact of angular resonance frequency ω has the damping ratio βω/2.
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
-        Self { damping, ..self }
+        let kinetic =
+            self.kinetic.map(|kinetic| Arc::new(Arc::unwrap_or_clone(kinetic).with_damping(damping)));
+        Self { damping, kinetic, ..self }
     }
 
     /// Replaces the profile by a row of springs in the normal direction.
@@ -72,7 +111,9 @@ impl Interface {
     // Normal and tangential force of a row use the same springs, so that row and curve are independent tests of each other.
     #[must_use]
     pub fn on_springs(self, springs: Arc<Springs>) -> Self {
-        Self { springs: Some(springs), ..self }
+        let on_springs = |kinetic: Arc<Self>| Arc::unwrap_or_clone(kinetic).on_springs(Arc::clone(&springs));
+        let kinetic = self.kinetic.map(|kinetic| Arc::new(on_springs(kinetic)));
+        Self { springs: Some(springs), kinetic, ..self }
     }
 
     /// Returns the time constant β of the sticking springs, s.
@@ -100,9 +141,20 @@ impl Interface {
         self.pair.tangential_modulus()
     }
 
-    /// Returns the friction coefficient μ.
+    /// Returns the friction coefficient μ, the static one where there are two.
     pub fn friction(&self) -> f64 {
         self.friction
+    }
+
+    /// Returns the kinetic friction coefficient μ_k; μ where there is only one coefficient.
+    pub fn kinetic_friction(&self) -> f64 {
+        self.kinetic.as_ref().map_or(self.friction, |kinetic| kinetic.friction)
+    }
+
+    /// Returns the interface of a contact that has broken loose, with μ_k as its only coefficient; `None` if there is only one.
+    #[inline]
+    pub fn kinetic(&self) -> Option<&Self> {
+        self.kinetic.as_deref()
     }
 
     /// Returns the slope of the friction limit κ = μE\*/G\*. A spring of height h sticks while its stretch is below κ(d-h).
@@ -187,7 +239,7 @@ mod tests {
         for friction in [-0.2, -f64::MIN_POSITIVE, 1000.1, f64::INFINITY, f64::NAN] {
             assert!(law(friction).is_err(), "{friction}");
         }
-        assert_eq!(law(-0.2), Err(FrictionError(-0.2)));
+        assert_eq!(law(-0.2), Err(FrictionError::Range(-0.2)));
         assert!(law(0.0).is_ok() && law(Interface::MAX_FRICTION).is_ok());
     }
 }

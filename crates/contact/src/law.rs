@@ -170,6 +170,15 @@ impl Law {
         matches!(&self.0, Form::Slip(branch) if branch.is_gross())
     }
 
+    /// Returns the direction in which all springs slip, +1 or -1; 0 if one sticks.
+    pub fn gross(&self) -> f64 {
+        match &self.0 {
+            Form::Slip(branch) if branch.is_gross() => branch.sense(),
+            Form::Lull { lull, .. } => lull.gross(),
+            _ => 0.0,
+        }
+    }
+
     /// Whether the contact has no tangential stiffness left: open, or in gross slip.
     pub fn has_given_way(&self, site: &impl Site) -> bool {
         match &self.0 {
@@ -236,7 +245,10 @@ impl Law {
         }
         let touched = self.lull().map_or(0.0, Lull::touch);
         let force = (site.load() == Load::Force).then_some(touched);
-        let lull = row.lull(springs, site.interface(), (at, change), slack, force);
+        // A row that has broken loose slides at its kinetic limit.
+        let interface = site.interface();
+        let interface = interface.kinetic().filter(|_| row.slides() != 0.0).unwrap_or(interface);
+        let lull = row.lull(springs, interface, (at, change), slack, force);
         Self(Form::Lull { lull, sense })
     }
 

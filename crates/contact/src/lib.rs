@@ -18,6 +18,7 @@
 //! Theory: Popov, Heß, Willert, *Handbook of Contact Mechanics* (2019), section 4.4 and chapter 11. Equation numbers are those of the
 //! handbook. All quantities are in SI units.
 
+mod breaking;
 mod curve;
 mod engine;
 mod fields;

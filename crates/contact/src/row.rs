@@ -26,7 +26,9 @@ pub struct Row {
     anchors: Vec<f64>,
     /// Number of distinct springs in contact; these are the springs of lowest height.
     touching: usize,
-    /// Whether u decreased in the last move in which it changed. This flag gives the sign of slip where the friction limit is 0.
+    /// Direction in which the contact slides after it has broken loose; 0 otherwise, and always with one friction coefficient.
+    slides: f64,
+    /// Whether u decreased in the last move in which it changed. The flag gives the sign of slip where the friction limit is 0.
     backward: bool,
 }
 
@@ -41,14 +43,14 @@ impl Row {
         let touching = springs.below(apex.d);
         let mut anchors = vec![0.0; springs.heights().len()];
         anchors[..touching].fill(apex.u);
-        Self { apex, anchors, touching, backward: false }
+        Self { apex, anchors, touching, slides: 0.0, backward: false }
     }
 
     /// Copies another row with the same number of springs into this one and reuses the allocated space.
     pub(crate) fn copy(&mut self, from: &Self) {
-        let Self { apex, anchors, touching, backward } = from;
+        let Self { apex, anchors, touching, slides, backward } = from;
         self.anchors.clone_from(anchors);
-        (self.apex, self.touching, self.backward) = (*apex, *touching, *backward);
+        (self.apex, self.touching, self.slides, self.backward) = (*apex, *touching, *slides, *backward);
     }
 
     /// Returns the current indentation and displacement.
@@ -178,8 +180,43 @@ impl Row {
             self.backward = to.u < self.apex.u;
         }
         (self.apex, self.touching) = (to, after);
+        if after == 0 {
+            self.slides = 0.0;
+        }
         // Each term is at least 0 except for rounding.
         Ok((law.tangential_modulus() * work).max(0.0))
+    }
+
+    /// Returns the direction in which the contact slides after it has broken loose; 0 otherwise.
+    #[inline]
+    pub(crate) fn slides(&self) -> f64 {
+        self.slides
+    }
+
+    /// Lets a sliding contact stick again.
+    pub(crate) fn hold(&mut self) {
+        self.slides = 0.0;
+    }
+
+    /// Returns the rest position of the lowest spring, m; `None` if it is out of contact.
+    pub(crate) fn lowest_anchor(&self) -> Option<f64> {
+        self.anchors.first().copied().filter(|_| self.touching > 0)
+    }
+
+    /// Stretches all springs to their limits in a direction and returns the released elastic energy, J.
+    pub(crate) fn break_loose(&mut self, springs: &Springs, kinetic: &Interface, sense: f64) -> f64 {
+        // The stretches may exceed the limits of `kinetic`, which the energy of the row would clip.
+        let energy = |row: &Self| {
+            let touching = springs.first(row.touching);
+            let square = |(&length, &anchor): (&f64, &f64)| length * (row.apex.u - anchor).powi(2);
+            touching.lengths.iter().zip(&row.anchors).map(square).sum::<f64>()
+        };
+        let before = energy(self);
+        let Apex { d, u } = self.apex;
+        let touching = self.anchors[..self.touching].iter_mut().zip(springs.heights());
+        touching.for_each(|(anchor, h)| *anchor = u - sense * kinetic.stick_slope() * (d - h));
+        self.slides = sense;
+        (0.5 * kinetic.tangential_modulus() * (before - energy(self))).max(0.0)
     }
 
     /// Returns the tangential elastic energy ½G\*Σ length·stretch², J.

@@ -71,7 +71,12 @@ impl<'a> Words<'a> {
         self.word().filter(|tally| *tally <= u64::MAX / 2)
     }
 
-    /// Reads an apex (d, u): indentation and displacement.
+    /// Reads a direction: -1, 0 or 1.
+    pub(crate) fn sense(&mut self) -> Option<f64> {
+        self.finite().filter(|sense| [-1.0, 0.0, 1.0].contains(sense))
+    }
+
+    /// Reads an apex.
     pub(crate) fn apex(&mut self) -> Option<Apex> {
         Some(Apex { d: self.finite()?, u: self.finite()? })
     }

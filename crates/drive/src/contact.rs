@@ -201,7 +201,20 @@ impl Contact {
         self.interface.damping() * self.natural.frequency
     }
 
-    /// Returns whether the sticking springs of the contact are damped.
+    /// Returns the kinds of events at which gross slip begins and ends.
+    pub(crate) fn gross_slip(&self) -> [EventKind; 2] {
+        match self.interface.kinetic() {
+            Some(_) => [EventKind::BreaksLoose, EventKind::SticksAgain],
+            None => [EventKind::GrossSlip, EventKind::GrossSlipEnds],
+        }
+    }
+
+    /// Whether it has two friction coefficients and slides at the kinetic one.
+    pub(crate) fn is_loose(&self, law: &Law) -> bool {
+        self.interface.kinetic().is_some() && law.is_gross()
+    }
+
+    /// Whether its sticking springs are damped.
     pub(crate) fn is_damped(&self) -> bool {
         self.interface.damping() > 0.0
     }
@@ -244,9 +257,10 @@ impl Site for Contact {
     }
     /// A row with a varying normal load and at most [`MOST_SPRINGS`] springs.
     // Under constant load, the error estimate detects the kinks; to end steps there would be too expensive for long paths.
-    // Balanced contacts move on straight paths only, so their rows end steps under any load.
+    // Balanced contacts move on straight paths only, so their rows end steps under any load. A row that breaks loose has a jump.
     fn has_lulls(&self) -> bool {
-        (self.balanced || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
+        let jumps = self.interface.kinetic().is_some();
+        (self.balanced || jumps || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
     }
     #[inline]
     fn scale(&self) -> Scale {
@@ -265,8 +279,9 @@ pub(crate) fn fired(contact: &Contact, guard: Guard, law: &Law, at: &Motion) -> 
         false => [Course::Backward, Course::Forward],
     };
     match guard {
+        Guard::Drag if at.dd > 0.0 && contact.is_loose(law) => (EventKind::SticksAgain, Course::Grow),
         Guard::Drag if at.dd > 0.0 && law.branch().is_some() => (EventKind::FullStick, Course::Grow),
-        Guard::Drag if law.is_gross() => (EventKind::GrossSlipEnds, turned),
+        Guard::Drag if law.is_gross() => (contact.gross_slip()[1], turned),
         Guard::Drag | Guard::Side => (EventKind::Reversal, turned),
         // Changes of single springs are not recorded; the kind is a placeholder.
         Guard::Piece | Guard::Edge | Guard::Forward | Guard::Backward | Guard::Rise | Guard::Sink => {

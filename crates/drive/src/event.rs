@@ -39,7 +39,11 @@ pub enum EventKind {
     GrossSlip,
     /// Gross slip ends.
     GrossSlipEnds,
-    /// The contact area begins to grow in full stick.
+    /// A contact with two friction coefficients breaks loose: gross slip begins, and all friction limits fall to the kinetic ones.
+    BreaksLoose,
+    /// A contact that has broken loose sticks again.
+    SticksAgain,
+    /// The contact begins to grow in full stick.
     FullStick,
     /// Slip begins in a contact that has grown in full stick.
     SlipBegins,
@@ -64,6 +68,8 @@ impl EventKind {
             Self::LoopClosed => "loop closed",
             Self::GrossSlip => "gross slip",
             Self::GrossSlipEnds => "gross slip ends",
+            Self::BreaksLoose => "breaks loose",
+            Self::SticksAgain => "sticks again",
             Self::FullStick => "full stick",
             Self::SlipBegins => "slip begins",
             Self::Touch => "touch",

@@ -222,8 +222,10 @@ impl Accounts {
         let Some(k) = self.contacts.iter().position(|it| it.c == c) else { return };
         let contact = &mut self.contacts[k];
         let [force, normal, state] = contact.places.map(|place| values.get(place).copied().unwrap_or(0.0));
-        let [begins, ends, opens] = [EventKind::GrossSlip, EventKind::GrossSlipEnds, EventKind::LiftOff]
-            .map(|other| kind == other.name());
+        let is = |others: &[EventKind]| others.iter().any(|other| kind == other.name());
+        let begins = is(&[EventKind::GrossSlip, EventKind::BreaksLoose]);
+        let ends = is(&[EventKind::GrossSlipEnds, EventKind::SticksAgain]);
+        let opens = is(&[EventKind::LiftOff]);
         // An open contact has no reversals. A reversal that ends gross slip is not counted.
         let has_turned = kind == contact.turn && state != OPEN;
         let turns = has_turned && !contact.slips;

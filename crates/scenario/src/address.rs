@@ -66,6 +66,7 @@ fn keys(field: Field, stepper: Stepper) -> Vec<&'static str> {
         Field::NormalIndentation => &["normal", "indentation"],
         Field::NormalRadius => &["normal", "radius"],
         Field::Gap => &["gap"],
+        Field::Friction => &["friction"],
         Field::Damping => &["damping"],
         Field::Start => &["start"],
         Field::StartForce => &["start", "force"],

@@ -144,7 +144,7 @@ impl Branch {
             height: height?,
             offset: offset?,
             excess: excess?,
-            ..Self::gross(law, sense)
+            ..Self::gross(law.kinetic().filter(|_| level == Some(f64::INFINITY)).unwrap_or(law), sense)
         })
     }
 
@@ -172,6 +172,12 @@ impl Branch {
     /// Returns the slip direction: +1 forward, -1 backward.
     pub fn sense(&self) -> f64 {
         self.sense
+    }
+
+    /// Returns the slope κ of its friction limit.
+    #[inline]
+    pub fn slope(&self) -> f64 {
+        self.slope
     }
 
     /// Returns force, N, friction power, W, and m at the slip front, m, of a moving apex. `reduced_force` is M(d), m².
@@ -226,6 +232,10 @@ impl Curve {
     /// Breakpoints within `slack` (m) of the limit line count as reached, because the caller has just located the end of the piece there.
     // Without slack, rounding could find the same event repeatedly.
     pub fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
+        // A contact that has broken loose slides at its kinetic limit.
+        if let Some(kinetic) = law.kinetic().filter(|_| self.slides == sense) {
+            return Branch::gross(kinetic, sense);
+        }
         let slope = law.stick_slope();
         let level = sense * self.apex.u - slope * self.apex.d + slack;
         let gross = Branch::gross(law, sense);

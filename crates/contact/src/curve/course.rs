@@ -22,6 +22,11 @@ pub enum Course {
 }
 
 impl Course {
+    /// Returns slip in a direction: +1 forward, -1 backward.
+    pub fn sliding(sense: f64) -> Self {
+        if sense > 0.0 { Self::Forward } else { Self::Backward }
+    }
+
     /// Returns the slip direction: +1 forward, -1 backward, 0 otherwise.
     pub fn sense(self) -> f64 {
         match self {
@@ -37,6 +42,12 @@ impl Curve {
     ///
     /// If both limit lines would slip while the contact shrinks, the slip direction is the side of the memory curve on which the path ends.
     pub fn course(&self, law: &Interface, dd: f64, du: f64) -> Course {
+        if let Some(kinetic) = law.kinetic().filter(|_| self.slides != 0.0)
+            && self.apex.d > 0.0
+            && self.slides * du > kinetic.stick_slope() * dd
+        {
+            return Course::sliding(self.slides);
+        }
         let limit = law.stick_slope() * dd;
         if self.apex.d < 0.0 || self.apex.d == 0.0 && dd <= 0.0 {
             Course::Open

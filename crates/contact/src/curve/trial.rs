@@ -5,10 +5,39 @@
 use super::cut::Drag;
 use super::front::Front;
 use super::knot::Knot;
+use super::stack::SlopeRange;
 use super::{Curve, sweep};
 use crate::{Apex, Interface, Move, Outcome, Response};
 
 impl Curve {
+    /// Returns the direction in which the contact slides after it has broken loose; 0 otherwise.
+    #[inline]
+    pub(crate) fn slides(&self) -> f64 {
+        self.slides
+    }
+
+    /// Lets a sliding contact stick again.
+    pub(crate) fn hold(&mut self) {
+        if self.slides != 0.0 {
+            (self.slides, self.front) = (0.0, Front::STICK);
+        }
+    }
+
+    /// Replaces the curve by the limit line of a direction and returns the released elastic energy, J.
+    pub(crate) fn break_loose(&mut self, kinetic: &Interface, sense: f64) -> f64 {
+        let (at, before) = (self.apex, self.elastic(kinetic));
+        self.knots.clear();
+        (self.slides, self.range) = (sense, SlopeRange::NONE);
+        self.front = Front { sense, height: f64::NEG_INFINITY };
+        let slope = sense * kinetic.stick_slope();
+        let centre = Knot::touch(at.u - slope * at.d);
+        self.knots.push(centre);
+        if at.d > 0.0 {
+            self.knots.push(centre.grow(kinetic, at.d, slope, at.u));
+        }
+        (before - self.elastic(kinetic)).max(0.0)
+    }
+
     /// Returns force and derivatives at the end of a move. The cost is proportional to the number of pieces that the move would
     /// remove, usually one.
     pub fn trial(&self, law: &Interface, to: Move) -> Response {

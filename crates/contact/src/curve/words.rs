@@ -14,9 +14,9 @@ impl Curve {
     /// Writes the state of the curve.
     // The capacity belongs to the state, because it determines later merges.
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
-        words.reserve(10 + KNOT * self.knots.len());
+        words.reserve(11 + KNOT * self.knots.len());
         words.push(self.capacity as u64);
-        push(words, [self.apex.d, self.apex.u, self.front.sense, self.front.height]);
+        push(words, [self.apex.d, self.apex.u, self.front.sense, self.front.height, self.slides]);
         push(words, [self.range.low, self.range.high]);
         words.push(self.merged.knots);
         push(words, [self.merged.force, self.merged.energy]);
@@ -29,6 +29,7 @@ impl Curve {
         let capacity = usize::try_from(words.word()?).ok()?;
         let apex = words.apex()?;
         let front = Front { sense: words.finite()?, height: words.number()? };
+        let slides = words.sense()?;
         let range = SlopeRange { low: words.number()?, high: words.number()? };
         let merged = Merged { knots: words.tally()?, force: words.finite()?, energy: words.finite()? };
         let count = words.count(capacity)?;
@@ -40,6 +41,7 @@ impl Curve {
             knots,
             apex,
             front,
+            slides,
             range,
             capacity,
             merged,

@@ -98,7 +98,7 @@ impl Guard {
             (Self::Drag, Form::Whole { sense }) if *sense == 0.0 => f64::INFINITY,
             (Self::Drag, Form::Whole { sense } | Form::Lull { sense, .. }) => sense * at.du,
             (Self::Edge, Form::Lull { lull, .. }) if lull.sense() != 0.0 => {
-                lull.sense() * at.du - slope * at.dd
+                lull.sense() * at.du - lull.slope() * at.dd
             }
             (Self::Forward, Form::Lull { lull, .. }) => lull.left(1.0, at.apex()),
             (Self::Backward, Form::Lull { lull, .. }) => lull.left(-1.0, at.apex()),
@@ -106,6 +106,7 @@ impl Guard {
             (Self::Sink, Form::Lull { lull, .. }) => at.d - lull.top(),
             (Self::Edge | Self::Forward | Self::Backward | Self::Rise | Self::Sink, _) => f64::INFINITY,
             // s₊ or s₋: zero at a reversal under constant depth, or at the start of full stick under growing depth.
+            (Self::Drag, Form::Slip(branch)) => branch.sense() * at.du - branch.slope() * at.dd,
             (Self::Drag, _) => law.sense() * at.du - slope * at.dd,
             (Self::Piece, Form::Slip(branch)) => branch.margin(at.d, at.u),
             (Self::Side, _) => Self::beside((memory, law), at)[0],
@@ -144,12 +145,13 @@ impl Guard {
         let slope = site.interface().stick_slope();
         match (self, &law.0) {
             (Self::Drag, Form::Whole { sense } | Form::Lull { sense, .. }) => sense * pull,
-            (Self::Edge, Form::Lull { lull, .. }) => lull.sense() * pull - slope * bend,
+            (Self::Edge, Form::Lull { lull, .. }) => lull.sense() * pull - lull.slope() * bend,
             (Self::Edge, _) => 0.0,
             (Self::Forward, _) => slope * at.dd - at.du,
             (Self::Backward, _) => slope * at.dd + at.du,
             (Self::Rise, _) => -at.dd,
             (Self::Sink, _) => at.dd,
+            (Self::Drag, Form::Slip(branch)) => branch.sense() * pull - branch.slope() * bend,
             (Self::Drag, _) => law.sense() * pull - slope * bend,
             (Self::Piece | Self::Side, _) => slope * at.dd - law.sense() * at.du,
             (Self::Lower, _) => slope * bend - pull,

@@ -164,7 +164,18 @@ impl Lull {
         self.touch
     }
 
-    /// Returns the direction in which springs slip, +1 or -1; 0 if no spring slips.
+    /// Returns the slope κ of the friction limit.
+    #[inline]
+    pub fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// Returns the direction in which all springs slip, +1 or -1; 0 if one sticks or none is in contact.
+    pub fn gross(&self) -> f64 {
+        if self.stick == 0.0 && self.touch > 0.0 { self.sense } else { 0.0 }
+    }
+
+    /// Returns the direction in which springs slip, +1 or -1; 0 if none does.
     #[inline]
     pub fn sense(&self) -> f64 {
         self.sense

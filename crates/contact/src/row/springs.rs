@@ -201,6 +201,11 @@ impl Springs {
         &self.heights
     }
 
+    /// Returns the height of the lowest spring, m.
+    pub(crate) fn lowest(&self) -> f64 {
+        self.heights[0]
+    }
+
     /// Returns half the length of the first `count` distinct springs, m.
     pub(super) fn inner_radius(&self, count: usize) -> f64 {
         self.radii[count]

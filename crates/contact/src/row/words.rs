@@ -6,8 +6,8 @@ use crate::words::{Words, push};
 impl Row {
     /// Writes the state, with the rest positions of springs in contact only.
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
-        words.reserve(4 + self.touching);
-        push(words, [self.apex.d, self.apex.u]);
+        words.reserve(5 + self.touching);
+        push(words, [self.apex.d, self.apex.u, self.slides]);
         words.push(u64::from(self.backward));
         words.push(self.touching as u64);
         words.extend(self.anchors[..self.touching].iter().map(|anchor| anchor.to_bits()));
@@ -15,7 +15,7 @@ impl Row {
 
     /// Reads a state that [`Self::write`] wrote, for a row of these springs.
     pub(crate) fn read(springs: &Springs, words: &mut Words<'_>) -> Option<Self> {
-        let (apex, backward) = (words.apex()?, words.flag()?);
+        let (apex, slides, backward) = (words.apex()?, words.sense()?, words.flag()?);
         let touching = words.count(springs.heights().len())?;
         if touching != springs.below(apex.d) {
             return None;
@@ -24,6 +24,6 @@ impl Row {
         for anchor in &mut anchors[..touching] {
             *anchor = words.finite()?;
         }
-        Some(Self { apex, anchors, touching, backward })
+        Some(Self { apex, anchors, touching, slides, backward })
     }
 }

@@ -9,6 +9,7 @@
 )]
 
 mod abuse;
+mod breaking;
 mod closed_forms;
 mod damping;
 mod fields;

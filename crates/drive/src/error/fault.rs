@@ -50,6 +50,11 @@ pub enum SceneFault {
     /// A force depends on the velocity of a quasi-static ("balanced") coordinate.
     #[error("a damper cannot act on a balanced coordinate: its position would depend on its velocity")]
     BalancedDamper,
+    /// A contact with two friction coefficients is moved by a quasi-static ("balanced") coordinate.
+    #[error(
+        "a balanced coordinate would jump when a contact with a kinetic coefficient of friction breaks loose"
+    )]
+    BalancedBreak,
     /// Two quasi-static ("balanced") coordinates with contacts act on each other.
     #[error("two balanced bodies with contacts act on each other")]
     BalancedTogether,
@@ -179,6 +184,7 @@ impl SceneFault {
             | Self::BalancedBesideFree(_)
             | Self::BalancedBesideBlock(_)
             | Self::BalancedDamper
+            | Self::BalancedBreak
             | Self::BalancedTogether
             | Self::Unbalanceable(_)
             | Self::Unbalanced { .. } => self.advice_on_balance(),
@@ -228,6 +234,9 @@ impl SceneFault {
                 "make the other coordinates \"balanced\" or \"fixed\", or let them follow a waveform"
             }
             Self::BalancedBesideBlock(_) => "use a linear stack without a driver, or a spring",
+            Self::BalancedBreak => {
+                "give one friction coefficient, or make the coordinate \"free\" and give it a mass"
+            }
             Self::BalancedDamper => "remove the damping, or make the coordinate \"free\" and give it a mass",
             Self::BalancedTogether => {
                 "let one of them follow a waveform, or join them to a body without a contact"

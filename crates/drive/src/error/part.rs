@@ -67,6 +67,8 @@ pub enum Field {
     NormalRadius,
     /// Gap of a contact.
     Gap,
+    /// Friction of a contact.
+    Friction,
     /// Damping of a contact, spring or actuator.
     Damping,
     /// Initial state of a contact, or of the free coordinates.
@@ -146,6 +148,7 @@ impl fmt::Display for Field {
             Self::NormalIndentation => "indentation",
             Self::NormalRadius => "contact radius",
             Self::Gap => "gap",
+            Self::Friction => "friction",
             Self::Damping => "damping",
             Self::Start => "start",
             Self::StartForce => "initial tangential force",

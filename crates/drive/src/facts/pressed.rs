@@ -27,6 +27,8 @@ pub struct Pressed {
     pub loaded: Option<Loaded>,
     /// Friction limit μF_N of all contacts, N.
     pub limit_force: f64,
+    /// Tangential force μ_kF_N of all contacts in gross slip, N; `None` if there is only one friction coefficient.
+    pub kinetic_limit_force: Option<f64>,
     /// Tangential contact stiffness ∂F_x/∂u of all contacts in full stick, N/m; 0 without friction.
     pub tangential_stiffness: f64,
     /// Normal contact stiffness ∂F_N/∂d of all contacts, N/m.
@@ -64,6 +66,7 @@ impl Pressed {
                 Loaded { force, share, zero_step_stroke: zero_step_stroke(law, d, share) }
             }),
             limit_force: limit,
+            kinetic_limit_force: law.kinetic().map(|law| count * law.friction() * law.normal_force(d)),
             // Without friction no spring sticks.
             tangential_stiffness: if law.friction() > 0.0 { count * law.stick_stiffness(d) } else { 0.0 },
             normal_stiffness: count * law.normal_stiffness(d),

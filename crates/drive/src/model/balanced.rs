@@ -249,6 +249,9 @@ pub(super) fn check_dampers(
         if contact.interface.damping() > 0.0 && moved {
             return Err(SceneFault::BalancedDamper.of(Part::Contact(i), Field::Damping));
         }
+        if contact.interface.kinetic().is_some() && is_balanced(&contact.u, first) {
+            return Err(SceneFault::BalancedBreak.of(Part::Contact(i), Field::Friction));
+        }
     }
     Ok(())
 }

@@ -269,7 +269,9 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.horizon.steps.begin(state);
         if laws == Laws::Chosen {
             state.choose_block_laws(self.setting.model, self.setting.layout);
-            (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
+            for c in 0..self.setting.model.contacts.len() {
+                self.decide(state, c);
+            }
         }
         self.turned(state);
         self.begin_interval(state);

@@ -14,6 +14,7 @@ mod abuse;
 mod balanced;
 mod balanced_bodies;
 mod benchmark_drive;
+mod breaking;
 mod chains;
 mod closed_forms;
 mod contact_damping;

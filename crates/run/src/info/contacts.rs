@@ -38,6 +38,9 @@ pub struct ContactInfo {
     pub similarity: String,
     /// μ, coefficient of friction
     pub friction: Real,
+    /// μ_k, kinetic coefficient of friction, if there is one. μ is then the static coefficient μ_s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kinetic_friction: Option<Real>,
     /// κ, tangential displacement at the onset of slip divided by the indentation of a spring: `κ = μE*/G*`, so that
     /// u_c = κd
     pub stick_slope: Real,
@@ -84,6 +87,10 @@ pub struct Pressed {
     /// and |F_x| may exceed it.
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
+    /// μ_kF_N, tangential force in gross slip, total of all identical contacts, if there is a kinetic coefficient. The
+    /// friction limit is then μ_sF_N.
+    #[serde(rename = "kinetic_limit_force_N", skip_serializing_if = "Option::is_none")]
+    pub kinetic_limit_force: Option<Real>,
     /// tangential stiffness ∂F_x/∂u in full stick, total of all identical contacts: count · 2G*a
     #[serde(rename = "tangential_stiffness_N_m")]
     pub tangential_stiffness: Real,
@@ -135,6 +142,7 @@ fn contact(job: &Job, c: usize, law: &Interface) -> Option<ContactInfo> {
         neglected_stiffness: Real(similarity.neglected_stiffness()),
         similarity: similarity.to_string(),
         friction: Real(law.friction()),
+        kinetic_friction: law.kinetic().map(|kinetic| Real(kinetic.friction())),
         stick_slope: Real(law.stick_slope()),
         start: pressed(depths.start)?,
         least: if varies { pressed(depths.least) } else { None },
@@ -157,6 +165,7 @@ impl Pressed {
                 zero_step_stroke: loaded.zero_step_stroke.map(Real),
             }),
             limit_force: Real(pressed.limit_force),
+            kinetic_limit_force: pressed.kinetic_limit_force.map(Real),
             tangential_stiffness: Real(pressed.tangential_stiffness),
             normal_stiffness: Real(pressed.normal_stiffness),
             resonance: pressed.resonance.map(Real),

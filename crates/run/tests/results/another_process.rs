@@ -151,7 +151,7 @@ fn count(kinds: &mut BTreeMap<String, usize>, pair: &Pair, stage: &Stage, state:
     let walks = state.tally().steps(Method::Walk) > 0;
     let is = [
         ("in a leap", inside.contains("leap: Some")),
-        ("growing", inside.contains("Grow,") || inside.contains("Grow]")),
+        ("growing", inside.contains("Law(Grow)")),
         ("walking", walks),
         ("engine: springs", stage.has_rows()),
         ("engine: curve", !stage.has_rows()),

@@ -4,8 +4,11 @@ use super::{Count, Moving, Points, ProfileForm, Two};
 use crate::quantity::{Force, Length, Time, dimension};
 use crate::schema::{above_zero, at_least_zero};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::json;
+use std::fmt;
 
 /// A frictional contact between two bodies. The tangential displacement is u = x(first) - x(second) at the contact point. Friction drags
 /// the second body along with the first body.
@@ -22,9 +25,9 @@ pub(crate) struct ContactForm {
     /// Profile of the gap between the undeformed bodies.
     #[schemars(example = json!({ "paraboloid": { "radius": "0.5 mm" } }))]
     pub(crate) profile: ProfileForm,
-    /// The Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6.
-    #[schemars(range(min = 0.0, max = 1000.0), example = 0.2)]
-    pub(crate) friction: f64,
+    /// The Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6. Or the static and the kinetic coefficient.
+    #[schemars(example = 0.2, example = json!({ "static": 0.3, "kinetic": 0.2 }))]
+    pub(crate) friction: FrictionForm,
     /// Normal loading of the contact: a force, an indentation or a contact radius, or the motion of the bodies.
     #[schemars(example = json!({ "force": "0.3 N" }))]
     pub(crate) normal: NormalForm,
@@ -55,6 +58,63 @@ pub(crate) struct ContactForm {
     #[serde(default = "no_time", skip_serializing_if = "is_zero")]
     #[schemars(example = &"1 us", transform = at_least_zero)]
     pub(crate) damping: Time,
+}
+
+/// Friction coefficient of a contact, or its static and its kinetic coefficient.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(inline)]
+pub(crate) enum FrictionForm {
+    /// The Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6.
+    One(#[schemars(range(min = 0.0, max = 1000.0))] f64),
+    /// Static and kinetic coefficient.
+    Two(StaticKineticForm),
+}
+
+// Deserialized by hand, so that errors are those of a number or of the object's keys.
+impl<'de> Deserialize<'de> for FrictionForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct FrictionVisitor;
+        impl<'de> Visitor<'de> for FrictionVisitor {
+            type Value = FrictionForm;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                // The word by which serde asks for a number.
+                f.write_str("f64")
+            }
+
+            fn visit_f64<E: de::Error>(self, number: f64) -> Result<FrictionForm, E> {
+                Ok(FrictionForm::One(number))
+            }
+
+            fn visit_u64<E: de::Error>(self, number: u64) -> Result<FrictionForm, E> {
+                Ok(FrictionForm::One(number as f64))
+            }
+
+            fn visit_i64<E: de::Error>(self, number: i64) -> Result<FrictionForm, E> {
+                Ok(FrictionForm::One(number as f64))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<FrictionForm, A::Error> {
+                StaticKineticForm::deserialize(MapAccessDeserializer::new(map)).map(FrictionForm::Two)
+            }
+        }
+        deserializer.deserialize_any(FrictionVisitor)
+    }
+}
+
+/// Static and kinetic friction coefficient. Partial slip obeys the static coefficient. When the last spring of the contact reaches its
+/// limit, the contact breaks loose: the limits of all springs fall to the kinetic coefficient at once. When it stops, it sticks again.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StaticKineticForm {
+    /// The static coefficient, 0 to 1000; typical 0.1 to 0.8.
+    #[serde(rename = "static")]
+    #[schemars(range(min = 0.0, max = 1000.0), example = 0.3)]
+    pub(crate) at_rest: f64,
+    /// The kinetic coefficient, 0 to the static one; typical 0.6 to 1 times the static one.
+    #[schemars(range(min = 0.0, max = 1000.0), example = 0.2)]
+    pub(crate) kinetic: f64,
 }
 
 fn one() -> Count {

@@ -30,7 +30,7 @@ pub(crate) use bordered::{
     PowersForm, RoundedFlatForm, TippedParaboloidForm, TruncatedConeForm, TruncatedParaboloidForm,
 };
 pub(crate) use ceramic::{BoucWenForm, CreepForm, HysteresisForm, LoopForm, PlaysForm};
-pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, NormalForm};
+pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, FrictionForm, NormalForm};
 pub(crate) use coupling::{DirectionForm, GravityForm, LoadForm, SpringForm};
 pub(crate) use generator::{CycleForm, GeneratorForm, HeadingForm};
 pub(crate) use input::{Bounds, InputForm, InterpolationForm};

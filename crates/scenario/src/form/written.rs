@@ -54,6 +54,12 @@ pub(crate) enum KindForm {
     /// Gross slip ends.
     #[serde(rename = "gross slip ends")]
     GrossSlipEnds,
+    /// A contact with two friction coefficients breaks loose: gross slip begins.
+    #[serde(rename = "breaks loose")]
+    BreaksLoose,
+    /// A contact that has broken loose sticks again.
+    #[serde(rename = "sticks again")]
+    SticksAgain,
     /// The contact area begins to grow without slip (full stick).
     #[serde(rename = "full stick")]
     FullStick,
@@ -131,6 +137,8 @@ impl KindForm {
             Self::LoopClosed => Kind::LoopClosed,
             Self::GrossSlip => Kind::GrossSlip,
             Self::GrossSlipEnds => Kind::GrossSlipEnds,
+            Self::BreaksLoose => Kind::BreaksLoose,
+            Self::SticksAgain => Kind::SticksAgain,
             Self::FullStick => Kind::FullStick,
             Self::SlipBegins => Kind::SlipBegins,
             Self::Touch => Kind::Touch,

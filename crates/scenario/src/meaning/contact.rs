@@ -3,17 +3,36 @@
 use super::profile::profile;
 use super::{Builder, names, range};
 use crate::fault::Fault;
-use crate::form::{ContactForm, ContactStartForm, EngineForm, NormalForm};
+use crate::form::{ContactForm, ContactStartForm, EngineForm, FrictionForm, NormalForm};
 use crate::named::MATERIALS;
 use crate::path::At;
 use crate::suggest;
-use stickslip_contact::{FrictionError, Interface, Pair};
+use stickslip_contact::{Interface, Pair, Profile};
 use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal};
 
 /// Maximum number of identical contacts, and of springs of a row.
 const MAX_COUNT: u64 = 1_000_000;
 /// Maximum number of springs of all rows together, each about 40 bytes.
 pub(super) const MAX_SPRINGS: u64 = 10_000_000;
+
+/// Returns an interface with one or two friction coefficients.
+fn interface(at: &At<'_>, form: &FrictionForm, pair: Pair, profile: Profile) -> Result<Interface, Fault> {
+    let within = |at: &At<'_>, most: f64| at.expected(format_args!("a number between 0 and {most}"));
+    match form {
+        FrictionForm::One(friction) => Interface::new(pair, profile, *friction).map_err(|_| {
+            let fault = within(at, Interface::MAX_FRICTION);
+            fault.help("the Coulomb coefficient of the pair; typical 0.05 to 0.6")
+        }),
+        FrictionForm::Two(two) => {
+            let interface = Interface::new(pair, profile, two.at_rest)
+                .map_err(|_| within(&at.key("static"), Interface::MAX_FRICTION))?;
+            interface.with_kinetic_friction(two.kinetic).map_err(|_| {
+                let fault = within(&at.key("kinetic"), two.at_rest);
+                fault.help("the kinetic coefficient is at most the static one")
+            })
+        }
+    }
+}
 
 impl Builder<'_> {
     /// Adds all contacts in the order of the file.
@@ -32,12 +51,7 @@ impl Builder<'_> {
         let between = self.between(at, &form.between)?;
         let pair = self.pair(&at.key("materials"), &form.materials.0)?;
         let profile = profile(&at.key("profile"), &form.profile, pair)?;
-        let friction_at = at.key("friction");
-        let interface = Interface::new(pair, profile, form.friction).map_err(|FrictionError(_)| {
-            let fault =
-                friction_at.expected(format_args!("a number between 0 and {}", Interface::MAX_FRICTION));
-            fault.help("the Coulomb coefficient of the pair; typical 0.05 to 0.6")
-        })?;
+        let interface = interface(&at.key("friction"), &form.friction, pair, profile)?;
         let interface = interface.with_damping(form.damping.si);
         let normal = self.normal(&at.key("normal"), &form.normal)?;
         let start = contact_start(&form.start);

@@ -248,7 +248,8 @@ impl Record for Last<'_> {
     fn event(&mut self, event: &Event, values: &[f64]) {
         self.take(values);
         // Due to rounding, the last spring may not have reached its limit at the gross slip event.
-        if event.source == Source::Contact(self.contact) && event.kind == EventKind::GrossSlip {
+        let begins = matches!(event.kind, EventKind::GrossSlip | EventKind::BreaksLoose);
+        if event.source == Source::Contact(self.contact) && begins {
             self.last[1] = f64::from(Regime::Gross as u8);
         }
     }

@@ -65,8 +65,10 @@ impl Record for Moments {
         self.times.push(event.t);
         self.grip.iter_mut().for_each(|grip| grip.event(event));
         match (event.source, event.kind) {
-            (Source::Contact(c), EventKind::GrossSlip | EventKind::LiftOff) => self.gave_way[c] = true,
-            // During a jump of the velocity, a contact may slip grossly without an event; its stick radius then becomes 0.
+            (Source::Contact(c), EventKind::GrossSlip | EventKind::BreaksLoose | EventKind::LiftOff) => {
+                self.gave_way[c] = true;
+            }
+            // During a jump of the velocity, a contact may slip grossly without an event. Its stick radius is then 0.
             (_, EventKind::Jump) => {
                 let sticks = |place: usize| row.get(place).is_none_or(|radius| *radius > 0.0);
                 for (gave_way, place) in self.gave_way.iter_mut().zip(&self.stick) {

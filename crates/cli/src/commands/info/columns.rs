@@ -71,7 +71,10 @@ fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
         word("Dundurs' β, 0 for similar pairs", &|c| {
             if c.elastically_similar { "0".to_owned() } else { digits(c.dundurs_beta.0) }
         }),
-        word("μ, coefficient of friction", &|c| c.friction.0.to_string()),
+        word("μ, coefficient of friction", &|c| match c.kinetic_friction {
+            Some(kinetic) => format!("{} static, {} kinetic", c.friction.0, kinetic.0),
+            None => c.friction.0.to_string(),
+        }),
         word("κ = μE*/G*", &|c| digits(c.stick_slope.0)),
         pressed("F_N, normal force per contact", "N", &|p| Some(p.normal_force)),
         pressed("d, indentation", "m", &|p| Some(p.indentation)),
@@ -85,6 +88,7 @@ fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
         }),
         pressed("S₀ against this load", "m", &|p| p.loaded?.zero_step_stroke),
         pressed("μF_N, friction limit of all", "N", &|p| Some(p.limit_force)),
+        pressed("μ_kF_N, in gross slip", "N", &|p| p.kinetic_limit_force),
         pressed("tangential stiffness of all, stuck", "N/m", &|p| Some(p.tangential_stiffness)),
         pressed("normal stiffness of all", "N/m", &|p| Some(p.normal_stiffness)),
         pressed("contact resonance", "Hz", &|p| p.resonance),

@@ -397,7 +397,8 @@ fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left):
     }
 }
 
-/// Whether a contact with this motion can keep to a branch: sliding, closed, and at constant indentation.
+/// Whether a contact with this motion can keep to a branch: sliding, closed, at constant indentation, and with one coefficient.
 fn keeps_to_branches(contact: &Contact, motion: &Motion) -> bool {
-    contact.is_constant() && !contact.inert && motion.d > 0.0 && motion.du != 0.0
+    let jumps = contact.interface.kinetic().is_some();
+    contact.is_constant() && !contact.inert && !jumps && motion.d > 0.0 && motion.du != 0.0
 }

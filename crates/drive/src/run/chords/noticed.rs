@@ -61,13 +61,14 @@ impl Chords<'_> {
             let now = self.standing(c, &state.memories[c], Some(motion));
             let was = std::mem::replace(&mut self.standings[c], now);
             let turns = self.senses[c] * heading(&state.modes[c], motion) < 0.0;
+            let [begins, ends] = self.model.contacts[c].gross_slip();
             let kind = match (was, now) {
                 (ContactState::Open, ContactState::Open) => continue,
                 // A contact that touches in the first step was in contact from the start.
                 (ContactState::Open, _) if state.counts.steps > 1 => EventKind::Touch,
                 (_, ContactState::Open) => EventKind::LiftOff,
-                (ContactState::Slip, now) if now != ContactState::Slip => EventKind::GrossSlipEnds,
-                (was, ContactState::Slip) if was != ContactState::Slip => EventKind::GrossSlip,
+                (ContactState::Slip, now) if now != ContactState::Slip => ends,
+                (was, ContactState::Slip) if was != ContactState::Slip => begins,
                 _ if turns => EventKind::Reversal,
                 _ => continue,
             };

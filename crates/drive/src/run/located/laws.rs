@@ -18,7 +18,7 @@ use crate::event::{Event, EventKind, Source};
 use crate::model::Measure;
 use crate::record::Record;
 use crate::state::State;
-use stickslip_contact::{Course, Guard, Law};
+use stickslip_contact::{Change, Course, Guard, Interface, Law, Memory};
 use stickslip_stepper::{Attempt, System};
 
 /// Time step of the finite difference of ḋ, as a fraction of the waveform's duration or of the contact's 1/ω.
@@ -95,10 +95,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         // Rounding of time or of a large displacement may stop before the zero. The remaining length then counts as used up.
         let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
         if let Some(change) = guard.change() {
+            let held = state.modes[c].gross();
             let at = (&motion, change, left(state));
             state.modes[c] =
                 state.modes[c].relinearised(contact, &state.memories[c], at, self.setting.tolerance);
-            return Ok(());
+            return self.pass_limits(state, (c, guard, held), &motion, record);
         }
         let (mut kind, course) = self.after(state, (c, guard), &motion);
         let slack = if guard == Guard::Piece {
@@ -107,12 +108,78 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             0.0
         };
         // The law is set first, because its branch shows whether slip is gross.
-        self.set_law(state, c, (course, &motion), slack);
-        if kind == EventKind::LoopClosed && state.modes[c].is_gross() {
-            kind = EventKind::GrossSlip;
+        let broke = self.set_law(state, c, (course, &motion), slack);
+        if kind == EventKind::LoopClosed && (broke || state.modes[c].is_gross()) {
+            kind = contact.gross_slip()[0];
         }
         self.note(state, Source::Contact(c), kind, record);
-        self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
+        self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))?;
+        self.note_break(state, (c, broke, kind), record)
+    }
+
+    /// Reports that a contact has broken loose in the instant of an event of another kind, or has stuck again in the same instant.
+    fn note_break(
+        &mut self,
+        state: &mut State,
+        (c, broke, kind): (usize, bool, EventKind),
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        // With a falling load a contact may stick again in the instant in which it breaks loose.
+        let kinds =
+            [(EventKind::BreaksLoose, true), (EventKind::SticksAgain, state.memories[c].slides() == 0.0)];
+        for (other, happens) in kinds {
+            if broke && happens && kind != other {
+                self.note(state, Source::Contact(c), other, record);
+                self.bounds.event(self.setting.model, state, (Source::Contact(c), other))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets a row with two friction coefficients break loose or stick again after a change of its springs.
+    ///
+    /// `held` is the direction of gross slip before the change, or 0.
+    fn pass_limits(
+        &mut self,
+        state: &mut State,
+        (c, guard, held): (usize, Guard, f64),
+        motion: &Motion,
+        record: &mut dyn Record,
+    ) -> Result<(), RunError> {
+        let contact = &self.setting.model.contacts[c];
+        let Some(kinetic) = contact.interface.kinetic() else { return Ok(()) };
+        let (slides, gross, tolerance) =
+            (state.memories[c].slides(), state.modes[c].gross(), self.setting.tolerance);
+        let again = |state: &mut State, change: Change| {
+            let at = (motion, change, 0.0);
+            state.modes[c] = state.modes[c].relinearised(contact, &state.memories[c], at, tolerance);
+        };
+        let kinds: &[EventKind] = if slides != 0.0 && held == 0.0 || slides == 0.0 && gross != 0.0 {
+            // The commit may have passed the limit by rounding.
+            if slides == 0.0 {
+                state.friction[c] += contact.count * state.memories[c].break_loose(kinetic, gross);
+            }
+            let sense = state.memories[c].slides();
+            if sense * motion.du > kinetic.stick_slope() * motion.dd {
+                again(state, Change::Slips(sense));
+                &[EventKind::BreaksLoose]
+            } else {
+                state.memories[c].hold();
+                again(state, Change::Any);
+                &[EventKind::BreaksLoose, EventKind::SticksAgain]
+            }
+        } else if slides != 0.0 && guard == Guard::Edge {
+            state.memories[c].hold();
+            again(state, Change::Any);
+            &[EventKind::SticksAgain]
+        } else {
+            &[]
+        };
+        for &kind in kinds {
+            self.note(state, Source::Contact(c), kind, record);
+            self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))?;
+        }
+        Ok(())
     }
 
     /// Returns the event and the next course after a zero crossing.
@@ -133,10 +200,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let kind = match course {
             Course::Open => EventKind::LiftOff,
             Course::Grow if old.grows() => return fired,
+            Course::Grow if contact.is_loose(old) => EventKind::SticksAgain,
             Course::Grow => EventKind::FullStick,
             _ if old.grows() => EventKind::SlipBegins,
             _ if course.sense() == old.sense() => return fired,
-            _ if old.is_gross() => EventKind::GrossSlipEnds,
+            _ if old.is_gross() => contact.gross_slip()[1],
             _ => EventKind::Reversal,
         };
         (kind, course)
@@ -160,24 +228,29 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let old = self.turning.before[c];
         // The path bends at a corner, so that later growth is a separate piece.
         state.grew[c] = false;
-        self.decide(state, c);
+        let broke = self.decide(state, c);
         let new = state.modes[c];
         let kind = match () {
+            () if broke && !old.is_open() => EventKind::BreaksLoose,
             () if old.is_open() && new.is_open() || old.grows() && new.grows() => return Ok(()),
             () if old.is_open() => EventKind::Touch,
             () if new.is_open() => EventKind::LiftOff,
+            () if new.grows() && contact.is_loose(&old) => EventKind::SticksAgain,
             () if new.grows() => EventKind::FullStick,
             () if old.grows() => EventKind::SlipBegins,
             () if old.sense() == new.sense() => return Ok(()),
-            () if old.is_gross() => EventKind::GrossSlipEnds,
+            () if old.is_gross() => contact.gross_slip()[1],
             () => EventKind::Reversal,
         };
         self.note(state, Source::Contact(c), kind, record);
-        self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))
+        self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))?;
+        self.note_break(state, (c, broke, kind), record)
     }
 
     /// Sets the law of a contact from its velocities. For a contact at rest, accelerations determine the law.
-    pub(super) fn decide(&mut self, state: &mut State, c: usize) {
+    ///
+    /// Returns whether a contact with two friction coefficients has broken loose.
+    pub(super) fn decide(&mut self, state: &mut State, c: usize) -> bool {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
@@ -188,9 +261,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let course = state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du);
         let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
         // A branch that continues in its sense keeps its starting point.
-        if !same || state.modes[c].branch().is_none() {
-            self.set_law(state, c, (course, &motion), 0.0);
-        }
+        (!same || state.modes[c].branch().is_none()) && self.set_law(state, c, (course, &motion), 0.0)
     }
 
     /// Returns the direction in (d, u) in which a contact at rest begins to move.
@@ -234,9 +305,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Sets the law of a contact. For growth in full stick, also sets the initial force and energy.
     ///
-    /// `slack` (m) is the remaining length of a memory piece that counts as ended. The step length before gross slip is stored and used
-    /// again afterwards, because steps in gross slip become too long for the next law.
-    pub(super) fn set_law(&self, state: &mut State, c: usize, (course, at): (Course, &Motion), slack: f64) {
+    /// `slack` (m) is the remaining length of a memory piece that counts as used up. The step length before gross slip
+    /// is stored and used again afterwards, because steps in gross slip become too long for the next law.
+    ///
+    /// Returns whether a contact with two friction coefficients has broken loose.
+    pub(super) fn set_law(
+        &self,
+        state: &mut State,
+        c: usize,
+        (course, at): (Course, &Motion),
+        slack: f64,
+    ) -> bool {
         let contact = &self.setting.model.contacts[c];
         // A constant load keeps the contact closed; without motion it begins forward.
         let course = if course == Course::Open && contact.is_constant() && state.memories[c].apex().d > 0.0 {
@@ -246,7 +325,28 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         };
         // Read before the law changes.
         let was_gross = state.modes[c].is_gross();
-        state.modes[c] = Law::of(contact, &state.memories[c], (course, at), slack, self.setting.tolerance);
+        let kinetic = contact.interface.kinetic();
+        // The commit may have passed the limit by rounding.
+        let mut broke = state.memories[c].slides() != 0.0 && state.modes[c].gross() == 0.0;
+        if kinetic.is_some_and(|kinetic| stops(contact, kinetic, &state.memories[c], (course, at))) {
+            state.memories[c].hold();
+        }
+        let law =
+            |memory: &Memory, course| Law::of(contact, memory, (course, at), slack, self.setting.tolerance);
+        state.modes[c] = law(&state.memories[c], course);
+        if let Some(kinetic) = kinetic
+            && state.memories[c].slides() == 0.0
+            && state.modes[c].gross() != 0.0
+        {
+            let memory = &mut state.memories[c];
+            state.friction[c] += contact.count * memory.break_loose(kinetic, state.modes[c].gross());
+            broke = true;
+            let course = memory.course(&contact.interface, at.d, at.dd, at.du);
+            if stops(contact, kinetic, memory, (course, at)) {
+                memory.hold();
+            }
+            state.modes[c] = law(memory, course);
+        }
         state.grew[c] = false;
         match (was_gross, state.modes[c].is_gross()) {
             (false, true) if state.step > 0.0 => state.stuck_step = state.step,
@@ -262,6 +362,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             state.y[self.setting.layout.force(slot)] = now.force;
             state.y[self.setting.layout.elastic(slot)] = now.elastic;
         }
+        broke
     }
 
     /// Counts an event and reports it to the record.
@@ -300,6 +401,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             record.event(&event, &[]);
         }
     }
+}
+
+/// Returns whether a contact that slides at its kinetic limit sticks again with a motion.
+fn stops(contact: &Contact, kinetic: &Interface, memory: &Memory, (course, at): (Course, &Motion)) -> bool {
+    let slides = memory.slides();
+    // The course of a row is the direction of u alone.
+    let goes = match contact.engine.branches() {
+        true => course.sense() == slides,
+        false => slides * at.du > kinetic.stick_slope() * at.dd,
+    };
+    slides != 0.0 && !goes
 }
 
 /// Whether a corner of any waveform directly changes the velocities of a contact.

@@ -55,7 +55,9 @@ impl Rows {
         let (c, was) = self.0[k];
         let now = slips(&model.contacts[c], state);
         self.0[k].1 = now;
+        // A row with two coefficients has events of its own.
         let kind = match (was, now) {
+            _ if model.contacts[c].interface.kinetic().is_some() => return None,
             (false, true) => EventKind::GrossSlip,
             (true, false) if !state.modes[c].is_open() => EventKind::GrossSlipEnds,
             _ => return None,

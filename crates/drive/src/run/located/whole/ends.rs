@@ -6,7 +6,7 @@ use crate::record::Record;
 use crate::run::horizon::Progress;
 use crate::run::located::Located;
 use crate::state::{Books, Detour, State};
-use crate::{EventKind, RunError, Source};
+use crate::{RunError, Source};
 use std::f64::consts::TAU;
 use stickslip_contact::Site;
 use stickslip_stepper::Attempt;
@@ -88,11 +88,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.detour = None;
         self.bounds.forget();
         state.step = self.control.after_event(detour.step);
-        (0..self.setting.model.contacts.len()).for_each(|c| self.decide(state, c));
+        for c in 0..self.setting.model.contacts.len() {
+            self.decide(state, c);
+        }
         self.restart(state);
         for c in (0..self.setting.model.contacts.len()).filter(|c| !self.setting.model.contacts[*c].inert) {
             if state.modes[c].is_gross() {
-                self.note(state, Source::Contact(c), EventKind::GrossSlip, record);
+                let [begins, _] = self.setting.model.contacts[c].gross_slip();
+                self.note(state, Source::Contact(c), begins, record);
             }
         }
     }
