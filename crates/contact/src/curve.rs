@@ -18,6 +18,7 @@
 //! Special cases are Cattaneo–Mindlin, Jäger and Ciavarella (4.30–4.33) and Masing's rules. The algorithm is known as the method of
 //! memory diagrams (Aleshin, Bou Matar, Van Den Abeele, Int. J. Solids Struct. 2015).
 
+mod ahead;
 mod branch;
 mod course;
 mod cut;
@@ -31,6 +32,7 @@ mod thinning;
 mod trial;
 mod words;
 
+pub use ahead::Since;
 pub use branch::{Branch, Dragged};
 pub use course::Course;
 pub use fixed_depth::FixedDepthBranch;

@@ -1,8 +1,8 @@
 //! Common interface of the two contact engines: memory curve and row of springs.
 
 use crate::{
-    Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Merged, Move, Outcome, Response, Row,
-    Segment, SpringState, Springs, Timed,
+    Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Merged, Motion, Move, Outcome, Response,
+    Row, Segment, Since, SpringState, Springs,
 };
 use std::sync::Arc;
 
@@ -57,15 +57,15 @@ pub trait Tangential {
     /// Moves the origin of displacements by `by` (m): all displacements grow by that amount.
     fn shift(&mut self, by: f64);
     /// Returns the tangential force and its derivatives at the end of a move.
-    fn trial(&self, law: &Interface, to: Timed<Move>) -> Response;
+    fn trial(&self, law: &Interface, to: Move) -> Response;
     /// Returns the tangential force F_x at the end of a straight path, N.
     fn force(&self, law: &Interface, to: Apex) -> f64;
     /// Returns force, energies and state at the end of a straight path, including the friction work.
     fn preview(&self, law: &Interface, to: Apex) -> Outcome;
     /// Commits a segment and returns its friction work, J. After an error the memory is unchanged.
-    fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
+    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError>;
     /// Commits a segment and returns the part of its friction work that [`Branch::friction_power`] does not contain, J.
-    fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError>;
+    fn commit_beside_power(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError>;
     /// Returns the smooth branches of the hysteresis; `None` for an engine without branches.
     ///
     /// The force of an engine without branches has a kink whenever a spring touches, slips or sticks. For such an engine the full force law
@@ -148,9 +148,8 @@ impl Tangential for Curve {
         Self::shift(self, by);
     }
     #[inline]
-    fn trial(&self, law: &Interface, to: Timed<Move>) -> Response {
-        let springs = Self::trial(self, law, to.path);
-        damped(law, springs, self.apex(), to)
+    fn trial(&self, law: &Interface, to: Move) -> Response {
+        Self::trial(self, law, to)
     }
     #[inline]
     fn force(&self, law: &Interface, to: Apex) -> f64 {
@@ -159,11 +158,11 @@ impl Tangential for Curve {
     fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         Self::preview(self, law, to)
     }
-    fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
-        Self::commit(self, law, segment.path)
+    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        Self::commit(self, law, segment)
     }
-    fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
-        Self::commit_beside_power(self, law, segment.path)
+    fn commit_beside_power(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        Self::commit_beside_power(self, law, segment)
     }
     fn branching(&self) -> Option<&dyn Branching> {
         Some(self)
@@ -195,9 +194,8 @@ impl Tangential for SpringRow {
     fn shift(&mut self, by: f64) {
         self.row.shift(by);
     }
-    fn trial(&self, law: &Interface, to: Timed<Move>) -> Response {
-        let springs = self.row.trial(&self.springs, law, to.path);
-        damped(law, springs, self.row.apex(), to)
+    fn trial(&self, law: &Interface, to: Move) -> Response {
+        self.row.trial(&self.springs, law, to)
     }
     fn force(&self, law: &Interface, to: Apex) -> f64 {
         self.row.force(&self.springs, law, to)
@@ -205,22 +203,12 @@ impl Tangential for SpringRow {
     fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         self.row.preview(&self.springs, law, Move::Chord(to))
     }
-    fn commit(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
-        self.row.commit(&self.springs, law, segment.path)
+    fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        self.row.commit(&self.springs, law, segment)
     }
-    fn commit_beside_power(&mut self, law: &Interface, segment: Timed<Segment>) -> Result<f64, ContactError> {
+    fn commit_beside_power(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
         Self::commit(self, law, segment).map(|_| 0.0)
     }
-}
-
-/// Adds the damping force of the sticking springs to the force of a response.
-#[inline]
-fn damped(law: &Interface, springs: Response, from: Apex, Timed { path, duration }: Timed<Move>) -> Response {
-    if duration == 0.0 || law.damping() == 0.0 {
-        return springs;
-    }
-    let rate = (path.end().u - from.u) / duration;
-    Response { force: springs.force + law.viscosity(springs.stiffness) * rate, ..springs }
 }
 
 /// Calls a method of the engine inside a [`Memory`].
@@ -295,9 +283,8 @@ impl Memory {
 
     /// Returns the tangential force and its derivatives at the end of a move.
     #[inline]
-    pub fn trial(&self, law: &Interface, to: impl Into<Timed<Move>>) -> Response {
-        let to = to.into();
-        match (law.kinetic(), to.path) {
+    pub fn trial(&self, law: &Interface, to: Move) -> Response {
+        match (law.kinetic(), to) {
             (Some(kinetic), Move::Chord(at)) => self.trial_breaking(
                 [law, kinetic],
                 at,
@@ -316,6 +303,22 @@ impl Memory {
         }
     }
 
+    /// Returns the damping force for the motion at the end of a path, N: the force of a damped contact minus its elastic force.
+    ///
+    /// Every spring carries G\*(s + βu̇), limited to its friction limit, where s is its elastic stretch. A row has straight paths only.
+    pub fn damping_force(&self, law: &Interface, since: Since, at: &Motion, elastic: f64) -> f64 {
+        let lead = law.damping() * at.du;
+        if lead == 0.0 || at.d <= 0.0 {
+            return 0.0;
+        }
+        let law = law.kinetic().filter(|_| self.slides() != 0.0).unwrap_or(law);
+        let damped = match self {
+            Self::Curve(curve) => curve.ahead(law, since, at, lead),
+            Self::Row(SpringRow { row, springs }) => row.ahead(springs, law, at.apex(), lead),
+        };
+        damped - elastic
+    }
+
     /// Returns force, energies and state at the end of a straight path, including the friction work.
     pub fn preview(&self, law: &Interface, to: Apex) -> Outcome {
         let one =
@@ -327,21 +330,13 @@ impl Memory {
     }
 
     /// Commits a segment and returns its friction work, J. After an error the memory is unchanged.
-    pub fn commit(
-        &mut self,
-        law: &Interface,
-        segment: impl Into<Timed<Segment>>,
-    ) -> Result<f64, ContactError> {
-        let segment = segment.into();
-        let one = |memory: &mut Self, law: &Interface, path: Segment| {
-            let segment = Timed { path, ..segment };
-            either!(memory, engine => Tangential::commit(engine, law, segment))
-        };
-        match (law.kinetic(), segment.path) {
-            (None, _) => one(self, law, segment.path),
+    pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        let one = |memory: &mut Self, law: &Interface, path: Segment| either!(memory, engine => Tangential::commit(engine, law, path));
+        match (law.kinetic(), segment) {
+            (None, _) => one(self, law, segment),
             (Some(_), Segment::Grown { .. }) => {
                 self.hold();
-                one(self, law, segment.path)
+                one(self, law, segment)
             }
             (Some(kinetic), path) => self.commit_breaking([law, kinetic], path.end(), one),
         }
@@ -351,21 +346,13 @@ impl Memory {
     ///
     /// # Errors
     /// As [`Self::commit`].
-    pub fn commit_beside_power(
-        &mut self,
-        law: &Interface,
-        segment: impl Into<Timed<Segment>>,
-    ) -> Result<f64, ContactError> {
-        let segment = segment.into();
-        let one = |memory: &mut Self, law: &Interface, path: Segment| {
-            let segment = Timed { path, ..segment };
-            either!(memory, engine => Tangential::commit_beside_power(engine, law, segment))
-        };
-        match (law.kinetic(), segment.path) {
-            (None, _) => one(self, law, segment.path),
+    pub fn commit_beside_power(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
+        let one = |memory: &mut Self, law: &Interface, path: Segment| either!(memory, engine => Tangential::commit_beside_power(engine, law, path));
+        match (law.kinetic(), segment) {
+            (None, _) => one(self, law, segment),
             (Some(_), Segment::Grown { .. }) => {
                 self.hold();
-                one(self, law, segment.path)
+                one(self, law, segment)
             }
             (Some(kinetic), path) => self.commit_breaking([law, kinetic], path.end(), one),
         }

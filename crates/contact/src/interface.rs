@@ -93,10 +93,9 @@ impl Interface {
 
     /// Adds viscous damping of the sticking springs with the time constant β, s, at least 0.
     ///
-    /// A sticking spring of stretch s then carries G\*s + βG\*ṡ per length. The elastic part G\*s alone determines slip. In partial
-    /// slip |F_x| may therefore exceed μF_N by up to βG\*m(c)|u̇|, where c is the stick radius. In gross slip |F_x| = μF_N. F_x jumps
-    /// where u̇ jumps, and where a loop closes with u̇ ≠ 0, because c jumps there. Only the elastic part of a loop in the (u, F_x)
-    /// plane closes. A mass on a sticking contact of angular resonance frequency ω has the damping ratio βω/2.
+    /// A spring of stretch s then carries G\*(s + βu̇), limited to its friction limit ±μE\*(d-h). The elastic part G\*s alone determines
+    /// slip. F_x is therefore the elastic force after a further displacement βu̇, and |F_x| ≤ μF_N. A mass on a sticking contact of
+    /// angular resonance frequency ω has the damping ratio βω/2.
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
         let kinetic =

@@ -34,16 +34,14 @@ mod row;
 mod similarity;
 mod words;
 
-pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Legs, Merged};
+pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Legs, Merged, Since};
 pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use fields::{Field, Fields, FrictionMap, Zone, ZoneKind};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};
 pub use interface::{FrictionError, Interface};
 pub use law::{GrowthRates, Guard, Law, Load, NEARNESS, Scale, Site, bands};
 pub use material::{Material, MaterialError, Pair};
-pub use motion::{
-    Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState, Timed,
-};
+pub use motion::{Apex, ContactError, ContactState, Motion, Move, Outcome, Response, Segment, SpringState};
 pub use profile::{Profile, ProfileError, RootSeries, RoughnessError, SelfAffine};
 pub use row::{Change, Lull, Row, Slack, Springs, SpringsError};
 pub use similarity::Similarity;

@@ -67,27 +67,6 @@ pub enum Segment {
     },
 }
 
-/// Path with its duration. Only contacts with damping use the duration.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Timed<P> {
-    /// Path.
-    pub path: P,
-    /// Duration Δt, s; 0 for a quasi-static path.
-    pub duration: f64,
-}
-
-impl From<Move> for Timed<Move> {
-    fn from(path: Move) -> Self {
-        Self { path, duration: 0.0 }
-    }
-}
-
-impl From<Segment> for Timed<Segment> {
-    fn from(path: Segment) -> Self {
-        Self { path, duration: 0.0 }
-    }
-}
-
 impl Move {
     /// Returns the end of the move.
     pub fn end(&self) -> Apex {

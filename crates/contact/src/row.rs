@@ -84,6 +84,22 @@ impl Row {
         law.tangential_modulus() * sum
     }
 
+    /// Returns the force F_x of a row with damping at the end of a straight path, N.
+    ///
+    /// Every spring carries G\*(s + lead), limited to its friction limit; `lead` is βu̇, m.
+    pub fn ahead(&self, springs: &Springs, law: &Interface, to: Apex, lead: f64) -> f64 {
+        let slope = law.stick_slope();
+        let chord = Chord::new(self.apex, to, slope);
+        let after = self.touching_at(springs, to.d);
+        let all = springs.first(after);
+        let force = |(i, (&h, &length)): (usize, (&f64, &f64))| {
+            let anchor = if i < self.touching { self.anchors[i] } else { chord.touching_anchor(h) };
+            let limit = chord.limit(h);
+            length * lanes::clamp(lanes::clamp(to.u - anchor, limit) + lead, limit)
+        };
+        law.tangential_modulus() * all.heights.iter().zip(all.lengths).enumerate().map(force).sum::<f64>()
+    }
+
     /// Returns the tangential force `F_x` at the end of a move and its derivatives.
     ///
     /// ∂F/∂u is G\* times the length that sticks. ∂F/∂d is G\*κ times the difference of the lengths that slip forward and backward. A

@@ -257,10 +257,11 @@ impl Site for Contact {
     }
     /// A row with a varying normal load and at most [`MOST_SPRINGS`] springs.
     // Under constant load, the error estimate detects the kinks; to end steps there would be too expensive for long paths.
-    // Balanced contacts move on straight paths only, so their rows end steps under any load. A row that breaks loose has a jump.
+    // Balanced contacts move on straight paths only, so their rows end steps under any load. A row that breaks loose has a
+    // jump, and in a damped row the kinks of the damping force are large.
     fn has_lulls(&self) -> bool {
-        let jumps = self.interface.kinetic().is_some();
-        (self.balanced || jumps || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
+        let rough = self.interface.kinetic().is_some() || self.is_damped();
+        (self.balanced || rough || !self.is_constant()) && (1..=MOST_SPRINGS).contains(&self.engine.springs())
     }
     #[inline]
     fn scale(&self) -> Scale {

@@ -324,7 +324,10 @@ fn contact_columns(
     // The force contains contact damping; energy and friction belong to the springs.
     let damping = match contact.interface.damping() {
         0.0 => 0.0,
-        _ => equations.viscosity(contact, &motion) * motion.du,
+        _ => {
+            let (memory, law) = equations.law(c);
+            law.damping_force((contact, memory), &motion, outcome.force)
+        }
     };
     books.elastic += normal + count * outcome.elastic;
     books.friction += friction;

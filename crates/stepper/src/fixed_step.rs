@@ -26,10 +26,4 @@ pub trait FixedStep {
 pub trait Stepping<S: ?Sized>: FixedStep {
     /// Advances `y` (all components) from `t` to `t + h` (s).
     fn step(&mut self, system: &S, t: f64, y: &mut [f64], h: f64);
-
-    /// Advances `y` from `t` to `t + h` (s), where forces vary with the square root of the time to `t + h + left`, with `left` ≥ 0 (s).
-    fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
-        let _ = left;
-        self.step(system, t, y, h);
-    }
 }

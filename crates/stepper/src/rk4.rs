@@ -18,8 +18,6 @@ pub struct Rk4 {
     slope: Vec<f64>,
     /// Partial sum of k₁ + 2k₂ + 2k₃ + k₄.
     sum: Vec<f64>,
-    /// Nonlinear part of the change in a step before a singular moment.
-    rise: Vec<f64>,
     evaluations: u64,
 }
 
@@ -33,7 +31,6 @@ impl Rk4 {
             stage: vec![0.0; dimension],
             slope: vec![0.0; total],
             sum: vec![0.0; total],
-            rise: vec![0.0; total],
             evaluations: 0,
         }
     }
@@ -85,36 +82,6 @@ impl<S: System + ?Sized> Stepping<S> for Rk4 {
         self.add(1.0);
         for (y, sum) in y.iter_mut().zip(&self.sum) {
             *y += h / 6.0 * sum;
-        }
-        self.evaluations += 4;
-    }
-
-    /// Integrates over σ with the time t + aσ(2 - σ), a = h + left, from 0 to s = 1 - √(left/a). The square root of the time left is linear
-    /// in σ; derivatives with respect to σ/s are 2as(1 - σ)f. The linear motion with the first slope is split off, so k₁ = 0.
-    fn step_to_a_root(&mut self, system: &S, t: f64, y: &mut [f64], (h, left): (f64, f64)) {
-        let a = h + left;
-        let s = 1.0 - (left / a).sqrt();
-        let middle = a * 0.5 * s * (2.0 - 0.5 * s);
-        let [half, whole] = [0.5, 1.0].map(|share| 2.0 * a * s * (1.0 - s * share));
-        self.stage.copy_from_slice(&y[..self.dimension]);
-        system.slopes(t, &self.stage, &mut self.slope);
-        // `sum` holds the first slope.
-        self.sum.copy_from_slice(&self.slope);
-        self.rise.fill(0.0);
-        for (time, ahead, weight) in
-            [(middle, 0.0, half / 3.0), (middle, half / 2.0, half / 3.0), (h, half, whole / 6.0)]
-        {
-            let slopes = self.sum.iter().zip(&self.slope);
-            for ((to, y), (first, k)) in self.stage.iter_mut().zip(y.iter()).zip(slopes) {
-                *to = y + time * first + ahead * (k - first);
-            }
-            system.slopes(t + time, &self.stage, &mut self.slope);
-            for (rise, (first, k)) in self.rise.iter_mut().zip(self.sum.iter().zip(&self.slope)) {
-                *rise += weight * (k - first);
-            }
-        }
-        for (y, (first, rise)) in y.iter_mut().zip(self.sum.iter().zip(&self.rise)) {
-            *y += h * first + rise;
         }
         self.evaluations += 4;
     }

@@ -180,17 +180,16 @@ impl Branch {
         self.slope
     }
 
-    /// Returns force, N, friction power, W, and m at the slip front, m, of a moving apex. `reduced_force` is M(d), m².
+    /// Returns force, N, and friction power, W, of a moving apex. `reduced_force` is M(d), m².
     ///
-    /// Force and power equal [`Branch::force`] and [`Branch::friction_power`], with one evaluation of the profile for both. The length m
-    /// belongs to the sticking part of the foundation; 0 in gross slip. The values continue smoothly beyond the ends of the branch, also
-    /// for a front above d or below the centre.
+    /// Both equal [`Branch::force`] and [`Branch::friction_power`], with one evaluation of the profile. The values continue smoothly beyond
+    /// the ends of the branch, also for a front above d or below the centre.
     #[inline(always)]
-    pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 3] {
+    pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 2] {
         let Motion { d, u, dd, du } = *at;
         let drive = law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd);
         if self.is_gross() {
-            return [self.factor * (self.slope * reduced_force), drive * reduced_force, 0.0];
+            return [self.factor * (self.slope * reduced_force), drive * reduced_force];
         }
         let (profile, front) = (law.profile(), self.front(d, u));
         let [inner, stuck] = if front > 0.0 {
@@ -200,7 +199,7 @@ impl Branch {
             [flat * front, flat]
         };
         let force = self.factor * (self.excess * inner + self.offset + self.slope * reduced_force);
-        [force, drive * (reduced_force - inner - (d - front) * stuck), stuck]
+        [force, drive * (reduced_force - inner - (d - front) * stuck)]
     }
 
     /// Returns the friction power of the slipping springs, W. `front` is the height h_c of the slip front, m.

@@ -4,10 +4,7 @@
 //! full stick. All values are for one contact; the caller multiplies by the number of contacts. The slip memory is read only.
 
 use super::{Form, Law, Load, Site};
-use crate::{Apex, Branch, Dragged, Memory, Motion, Move};
-
-/// Time step of the trial displacement that shows which springs stick, in radians of the contact's natural oscillation.
-const AHEAD: f64 = 1e-6;
+use crate::{Apex, Branch, Dragged, Memory, Motion, Move, Since};
 
 /// Time derivatives of the states and integrals of a contact that may grow in full stick.
 #[derive(Debug, Clone, Copy, Default)]
@@ -126,35 +123,15 @@ impl Law {
         }
     }
 
-    /// Returns the viscosity of the sticking springs, N s/m.
-    ///
-    /// It is β times their stiffness: G\*m(d) in full stick, G\*m(h) below a slip front at height h, and 0 in gross slip or
-    /// without contact. β is the damping time of the contact, s.
-    pub fn viscosity(&self, (site, memory): (&impl Site, &Memory), motion: &Motion) -> f64 {
-        let stuck = match &self.0 {
-            Form::Open => 0.0,
-            Form::Grow => site.interface().stick_stiffness(motion.d),
-            // All springs slip: no damping.
-            Form::Slip(branch) if branch.is_gross() => 0.0,
-            // The front may lie above d where a shrinking contact has crossed the old curve, or below the centre. Limiting it
-            // avoids a kink in a step that oversteps an event.
-            Form::Slip(branch) => {
-                site.interface().stick_stiffness(front((site, memory), branch, motion).max(Branch::CENTRE))
-            }
-            Form::Lull { lull, .. } => lull.stiffness(site.interface()),
-            // The full force law determines sticking springs by a trial displacement; at the start of a step a trial of zero
-            // length would find all of them sticking.
-            Form::Whole { .. } => {
-                let ahead = |times: f64| {
-                    let ahead = times * AHEAD / site.scale().frequency;
-                    let to = Apex { d: motion.d + ahead * motion.dd, u: motion.u + ahead * motion.du };
-                    memory.trial(site.interface(), Move::Chord(to)).stiffness
-                };
-                // Extrapolation to zero time removes the springs that begin to slip within the trial.
-                2.0 * ahead(1.0) - ahead(2.0)
-            }
+    /// Returns the damping force of one contact, N; `elastic` is its force without damping. See [`Memory::damping_force`].
+    pub fn damping_force(&self, (site, memory): (&impl Site, &Memory), motion: &Motion, elastic: f64) -> f64 {
+        let since = match &self.0 {
+            Form::Open => return 0.0,
+            Form::Slip(branch) => Since::Slip(branch.sense()),
+            Form::Grow => Since::Growth(elastic),
+            Form::Lull { .. } | Form::Whole { .. } => Since::Chord,
         };
-        site.interface().viscosity(stuck)
+        memory.damping_force(site.interface(), since, motion, elastic)
     }
 
     /// Returns the time derivatives of the states of a contact that may grow in full stick.

@@ -5,7 +5,7 @@
 
 use super::sum::{Sum, View};
 use super::{Equations, Sample};
-use crate::contact::{Contact, Motion, Press};
+use crate::contact::{Motion, Press};
 use crate::model::{Link, Stroke};
 
 impl Equations<'_> {
@@ -64,7 +64,7 @@ impl Equations<'_> {
         let mut force = match (law.branch(), slot) {
             // Force and friction power share one slip front; the memory computes them where the branch does not apply.
             (Some(branch), Some(slot)) if branch.covers(d, u.value) => {
-                let [force, friction, _] = branch.drag(&contact.interface, &motion, reduced_force);
+                let [force, friction] = branch.drag(&contact.interface, &motion, reduced_force);
                 extra[self.layout.friction(slot) - 2 * self.layout.free] = friction;
                 force
             }
@@ -79,18 +79,12 @@ impl Equations<'_> {
             }
         };
         if contact.interface.damping() > 0.0 {
-            let damping = self.viscosity(contact, &motion);
+            let damping = law.damping_force((contact, &self.memories[c]), &motion, force);
             // Dissipated in sticking springs, separate from friction.
-            sum.damping += contact.count * damping * motion.du * motion.du;
-            force += damping * motion.du;
+            sum.damping += contact.count * damping * motion.du;
+            force += damping;
         }
         sum.apply(&contact.u.free, u.driven, -contact.count * force);
-    }
-
-    /// Returns the viscosity of the sticking springs of one contact, N s/m.
-    pub(crate) fn viscosity(&self, contact: &Contact, motion: &Motion) -> f64 {
-        let (memory, law) = self.law(contact.place);
-        law.viscosity((contact, memory), motion)
     }
 
     /// Writes the slopes of the additional components of a growing contact; `extra` begins after the velocities.

@@ -16,14 +16,13 @@ use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon};
 use super::ledger::Ledger;
 use super::output::{Opening, Output};
-use crate::contact::{Contact, Motion};
+use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::Model;
 use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
-pub(super) use branches::Weakening;
 use branches::{Branches, GROWING_KNOTS, KNOTS};
 pub(super) use step::Between;
 use stickslip_contact::{Branch, ContactState, Law, Memory, Segment};
@@ -46,8 +45,6 @@ pub(super) struct Chords<'a> {
     pub(super) crossing: bool,
     /// Branches of the force laws; only for the stepper [`Stepper::Frames`].
     branches: Option<Branches<'a>>,
-    /// Whether any contact has contact damping.
-    is_damped: bool,
     /// Motions of the contacts at the start of the step (`before`) and at its end (`motions`).
     before: Vec<Motion>,
     motions: Vec<Motion>,
@@ -71,10 +68,9 @@ impl<'a> Chords<'a> {
             watched: false,
             crossing: !plan.stepper.ends_at_corners(),
             branches: match plan.stepper {
-                Stepper::Frames { accuracy, .. } => Some(Branches::of(model, accuracy)),
+                Stepper::Frames { .. } => Some(Branches::of(model)),
                 _ => None,
             },
-            is_damped: model.contacts.iter().any(Contact::is_damped),
             before: Vec::with_capacity(model.contacts.len()),
             motions: Vec::with_capacity(model.contacts.len()),
             last: Vec::with_capacity(layout.total()),
@@ -120,7 +116,7 @@ impl<'a> Chords<'a> {
     /// Restores the data that an earlier run has saved in its state.
     fn take_up(&mut self, way: &FixedWay, state: &State) {
         self.senses.clone_from(&way.senses);
-        self.ledger.booked.copy(&way.booked);
+        self.ledger.booked = way.booked;
         self.bounds.windows.clone_from(&way.windows);
         if let Some(steps) = way.steps {
             self.horizon.steps.take_up(steps, state);
@@ -130,7 +126,7 @@ impl<'a> Chords<'a> {
     /// Saves everything that the next step depends on, except the integrator's own data.
     pub(super) fn put_down(&self, way: &mut FixedWay) {
         way.senses.clone_from(&self.senses);
-        way.booked.copy(&self.ledger.booked);
+        way.booked = self.ledger.booked;
         way.windows.clone_from(&self.bounds.windows);
         way.steps = self.horizon.steps.so_far();
     }
@@ -241,7 +237,7 @@ impl<'a> Chords<'a> {
             }
         }
         self.move_contacts(state, t, y);
-        self.write_down(state, (t, t - state.t));
+        self.write_down(state, t - state.t);
         self.ledger.commit((self.model, self.layout), t, state)?;
         self.ledger.tell(record);
         state.y.copy_from_slice(y);

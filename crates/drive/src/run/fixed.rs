@@ -2,7 +2,7 @@
 //!
 //! Events reduce the order of accuracy to at most two. The number of evaluations of a run is known in advance.
 
-use super::chords::{Chords, Weakening};
+use super::chords::Chords;
 use super::horizon::{Goal, Progress};
 use super::output::Opening;
 use crate::equations::Equations;
@@ -16,14 +16,6 @@ const REMAINDER: f64 = 1e-9;
 
 /// Shortest length to which a branch end cuts a step, as a fraction of a full step. The limit bounds the number of steps.
 const LEAST: f64 = 0.125;
-/// Shortest length to which decreasing contact damping cuts a step, as a fraction of a full step.
-const BRIEF: f64 = 1e-6;
-/// Largest number of repetitions of a step that ends where contact damping decreases.
-const CORRECTIONS: u32 = 2;
-/// Number of step lengths ahead within which vanishing contact damping changes the stages of a step.
-///
-/// For a longer distance, evenly distributed stages have a relative error of about 10⁻⁶.
-const NEAR: f64 = 4.0;
 
 /// Length of a frame, s, and its whole number of steps; one step for plain fixed-step methods.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -204,7 +196,6 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         // A frame that ends at a corner ends there to the last bit.
         let stop = if (until - corner).abs() <= slack { corner } else { until.min(corner) };
         let mut end = if aim > stop - slack { stop } else { aim };
-        end = end.min(state.t + self.chords.longest(state));
         if crossing {
             turned = self.chords.enter(state, end);
         }
@@ -221,8 +212,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         }
         self.chords.prepare(state);
         self.attempt(state, end);
-        let is_plain = !is_due && self.root_ahead(state, end).is_none();
-        if is_plain && self.chords.glides(state, (end, &self.y), record) {
+        if !is_due && self.chords.glides(state, (end, &self.y), record) {
             self.grid.count += if end >= aim - slack { 1.0 } else { 0.0 };
             return self.chords.bounds.step(state, record).map(|()| Progress::Made);
         }
@@ -251,56 +241,28 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
 
     /// Repeats the step to `end` so that it stops at the first branch end. Returns the new end, s.
     ///
-    /// The step is cut to no less than [`LEAST`] of a full step, or [`BRIEF`] where contact damping decreases.
-    fn cut(&mut self, state: &State, mut end: f64) -> f64 {
+    /// The step is cut to no less than [`LEAST`] of a full step.
+    fn cut(&mut self, state: &State, end: f64) -> f64 {
         self.chords.let_end_decide();
-        let mut is_rooted = false;
-        for _ in 0..CORRECTIONS {
-            let Some(first) = self.chords.first_end(state, (end, &self.y)) else { break };
-            let weakens = self.chords.weakens(state);
-            let least = if weakens.is_some() { BRIEF } else { LEAST };
-            // A branch that is used up at the start of the step ends after the shortest step.
-            let cut = first.max(state.t + least * self.whole(state));
-            let first = if weakens.is_some() { cut } else { first };
-            if cut > first || cut >= end {
-                self.chords.let_end_decide();
-            }
-            if cut >= end {
-                return end;
-            }
-            end = cut;
-            is_rooted = weakens == Some(Weakening::Away);
-            self.again(state, end, is_rooted.then_some(end));
-            if weakens.is_none() {
-                return end;
-            }
+        let Some(first) = self.chords.first_end(state, (end, &self.y)) else { return end };
+        // A branch that is used up at the start of the step ends after the shortest step.
+        let cut = first.max(state.t + LEAST * self.whole(state));
+        if cut > first || cut >= end {
+            self.chords.let_end_decide();
         }
-        if !is_rooted && let Some(root) = self.root_ahead(state, end) {
-            self.again(state, end, Some(root));
+        if cut >= end {
+            return end;
         }
-        end
+        self.y.copy_from_slice(&state.y);
+        self.stepper.restart();
+        self.attempt(state, cut);
+        cut
     }
 
     /// Returns the length of an uncut step, s: the grid step, or the shortest current waveform piece.
     fn whole(&self, state: &State) -> f64 {
         let pieces = state.pieces.iter().map(|piece| piece.end - piece.start).filter(|length| *length > 0.0);
         pieces.fold(self.grid.step, f64::min)
-    }
-
-    /// Returns when contact damping vanishes, s, if within [`NEAR`] steps. The Runge–Kutta stages are adapted to that time.
-    fn root_ahead(&mut self, state: &State, end: f64) -> Option<f64> {
-        let root = self.chords.gives_way_after(state, (end, &self.y))?;
-        (root - state.t < NEAR * (end - state.t)).then_some(root)
-    }
-
-    /// Repeats the step to `end`. Its Runge–Kutta stages are adapted to contact damping that vanishes at time `root`, s.
-    fn again(&mut self, state: &State, end: f64, root: Option<f64>) {
-        self.y.copy_from_slice(&state.y);
-        self.stepper.restart();
-        let Some(root) = root else { return self.attempt(state, end) };
-        let y = &mut self.y[..self.moved];
-        let way = (end - state.t, (root - end).max(0.0));
-        self.stepper.step_to_a_root(&self.chords.equations(state), state.t, y, way);
     }
 
     /// Takes the step from the current state to `end`, s.

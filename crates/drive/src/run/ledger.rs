@@ -12,12 +12,12 @@ use crate::event::EventKind;
 use crate::model::{Model, Wired};
 use crate::record::Record;
 use crate::state::{Booked, Books, Layout, State};
-use stickslip_contact::{Memory, Segment, Timed};
+use stickslip_contact::{Memory, Segment};
 
 /// Paths to be committed, and the times of the last commits.
 pub(super) struct Ledger {
     /// Contact index and path segment of each path, in order of time.
-    segments: Vec<(usize, Timed<Segment>)>,
+    segments: Vec<(usize, Segment)>,
     /// Times up to which paths have been committed.
     pub(super) booked: Booked,
     /// Number of reversals that commits have added or removed.
@@ -36,7 +36,7 @@ impl Ledger {
         let blank = Self {
             segments: Vec::new(),
             touched: 0,
-            booked: Booked { last: Vec::new(), blocks: 0.0, books: Books::Current },
+            booked: Booked { blocks: 0.0, books: Books::Current },
             passages: Vec::new(),
             led: Vec::new(),
             told: None,
@@ -56,8 +56,6 @@ impl Ledger {
         };
         self.segments.clear();
         self.segments.reserve(model.contacts.len() + more);
-        self.booked.last.clear();
-        self.booked.last.resize(model.contacts.len(), 0.0);
         (self.booked.blocks, self.booked.books) = (0.0, Books::Current);
         self.led.clear();
         self.led.reserve(model.blocks.len());
@@ -94,7 +92,6 @@ impl Ledger {
 
     /// Sets the time of the last commit of all contacts and blocks to t, s.
     pub(super) fn set_out(&mut self, t: f64) {
-        self.booked.last.fill(t);
         self.booked.blocks = t;
     }
 
@@ -103,14 +100,12 @@ impl Ledger {
         self.segments.clear();
     }
 
-    /// Adds the path of contact `c` up to time t, s.
+    /// Adds a path of contact `c`.
     ///
     /// A contact growing in full stick has several paths in a step, in order of time.
     #[inline]
-    pub(super) fn push(&mut self, c: usize, t: f64, path: Segment) {
-        // The duration counts from the contact's last path, which may be older than the last step.
-        let duration = t - std::mem::replace(&mut self.booked.last[c], t);
-        self.segments.push((c, Timed { path, duration }));
+    pub(super) fn push(&mut self, c: usize, path: Segment) {
+        self.segments.push((c, path));
     }
 
     /// Commits all collected paths of a step that ends at time t, s.
@@ -140,9 +135,9 @@ impl Ledger {
             // A path adds at most two reversals to a memory curve and none to a spring row.
             let made = if matches!(state.memories[c], Memory::Curve(_)) { 2 } else { 0 };
             self.touched += (knots + made).saturating_sub(state.memories[c].knot_count()) as u64;
-            self.note(model, state, c, segment.path);
+            self.note(model, state, c, segment);
             // Continued growth joins the previous piece; any other path ends that piece.
-            state.grew[c] = matches!(segment.path, Segment::Grown { .. });
+            state.grew[c] = matches!(segment, Segment::Grown { .. });
         }
         Ok(())
     }

@@ -136,23 +136,13 @@ impl Allowed {
     }
 }
 
-/// Times up to which paths of contacts and blocks are committed.
-#[derive(Debug, Clone, PartialEq)]
+/// Extent to which the paths of contacts and blocks are committed.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Booked {
-    /// Time for each contact, s.
-    pub(crate) last: Vec<f64>,
     /// Time for the blocks, s.
     pub(crate) blocks: f64,
     /// Whether the slip memories of contacts with a closed form are up to date.
     pub(crate) books: Books,
-}
-
-impl Booked {
-    /// Copies values, reusing the memory.
-    pub(crate) fn copy(&mut self, from: &Self) {
-        self.last.clone_from(&from.last);
-        (self.blocks, self.books) = (from.blocks, from.books);
-    }
 }
 
 /// State of the slip memories of contacts with a closed form.
@@ -234,7 +224,7 @@ impl LocatedWay {
         history: StepHistory::BLANK,
         gait: Gait { proven: 0.0, ahead: Ahead::Clear, grip: Grip::Slips },
         allowed: Allowed { scale: Vec::new(), power: 0.0 },
-        booked: Booked { last: Vec::new(), blocks: 0.0, books: Books::Current },
+        booked: Booked { blocks: 0.0, books: Books::Current },
         asked: false,
         leap: None,
         detour: None,
@@ -252,7 +242,7 @@ impl FixedWay {
         grid: Grid { start: 0.0, step: 0.0, count: 0.0 },
         slopes: Vec::new(),
         senses: Vec::new(),
-        booked: Booked { last: Vec::new(), blocks: 0.0, books: Books::Current },
+        booked: Booked { blocks: 0.0, books: Books::Current },
         windows: Vec::new(),
         steps: None,
     };

@@ -1,4 +1,4 @@
-//! Contact damping β: a force βG\*m(c)u̇ of sticking springs in addition to the contact law.
+//! Contact damping β: every spring carries G\*(s + βu̇), limited to its friction limit, so that the force leads by βu̇.
 
 use crate::parts::{
     FOOT_SLIDER, column, contact, damped, damper, end, event, follower, foot_and_slider, free, named,
@@ -57,22 +57,18 @@ fn a_stuck_slider_is_a_damped_oscillator() {
 /// Paraboloid under a piecewise linear motion of constant speed.
 struct Path {
     u_c: f64,
-    stiffness: f64,
-    speed: f64,
-    beta: f64,
     u: Vec<f64>,
     force: Vec<f64>,
     damping: Vec<f64>,
 }
 
 impl Path {
-    /// Through the `corners`, in u_c, with β such that βku̇ is a fraction `part` of μF_N; 200 rows per u_c.
-    fn along(corners: &[f64], part: f64) -> Self {
+    /// Through the `corners`, in u_c, with the lead βu̇ in u_c; 200 rows per u_c.
+    fn along(corners: &[f64], lead: f64) -> Self {
         let radius = 1e-3;
         let d = (0.75 * FORCE / (E * f64::sqrt(radius))).powf(2.0 / 3.0);
-        let (u_c, stiffness) = (MU * E / G * d, 2.0 * G * (radius * d).sqrt());
+        let u_c = MU * E / G * d;
         let speed = u_c / 1e-3;
-        let beta = part * MU * FORCE / (stiffness * speed);
         let mut points = vec![(0.0, 0.0)];
         for corner in corners {
             let (t, u) = points[points.len() - 1];
@@ -83,67 +79,80 @@ impl Path {
         let path = Waveform::new(Shape::Table { points }, Timing::every(end)).unwrap();
         scene.waveforms.push(named("path", path));
         scene.bodies = vec![named("foot", follower(0)), named("wall", Body::default())];
-        scene.contacts.push(named("ball", known(FOOT_SLIDER, Profile::paraboloid(radius).unwrap(), beta)));
+        let ball = known(FOOT_SLIDER, Profile::paraboloid(radius).unwrap(), lead * u_c / speed);
+        scene.contacts.push(named("ball", ball));
         // Rows near the corners, where the force jumps.
         let (model, _, rows) = trace(&scene, &event(1e-10, end), 1e-3 / 199.7);
         let [u, force, damping] =
             ["ball.u_m", "ball.fx_N", "energy.damping_J"].map(|name| column(&model, &rows, name));
-        Self { u_c, stiffness, speed, beta, u, force, damping }
-    }
-
-    /// Force in units of μF_N after `travel` (u_c) from the last reversal with elastic force `elastic`. `scale` is 1 for first
-    /// loading and 2 after a reversal; the fraction c/a of sticking springs is damped.
-    fn force(&self, (scale, elastic): (f64, f64), travel: f64, sense: f64) -> f64 {
-        let stuck = 1.0 - travel / scale;
-        let damped = self.beta * self.stiffness * self.speed / (MU * FORCE) * stuck.sqrt();
-        elastic + sense * (scale * (1.0 - stuck.powf(1.5)) + damped)
+        Self { u_c, u, force, damping }
     }
 }
 
-/// Forward to 0.6 u_c, back to 0.4, forward into gross slip. The damped force exceeds the friction limit, vanishes in gross slip,
-/// and jumps when the small loop closes.
+/// First loading in units of u_c and μF_N (4.30).
+fn virgin(u: f64) -> f64 {
+    1.0 - f64::max(0.0, 1.0 - u).powf(1.5)
+}
+
+/// Forward to 0.6 u_c, back to 0.4, forward into gross slip, with a lead of 0.15 u_c. The force is the undamped one at u ± lead: it
+/// jumps at corners, is continuous where the small loop closes and at the beginning of gross slip, and keeps to Coulomb's law.
 #[test]
-fn damping_exceeds_the_limit_of_friction_and_jumps_where_loops_close() {
-    let path = Path::along(&[0.6, 0.4, 1.4], 1.5);
-    let virgin = |u: f64| 1.0 - (1.0 - u).powf(1.5);
-    let back = virgin(0.6) - 2.0 * (1.0 - 0.9_f64.powf(1.5));
-    let (mut travelled, mut before) = (0.0, 0.0);
-    let mut largest: f64 = 0.0;
+fn the_force_leads_by_the_damping_time() {
+    let lead = 0.15;
+    let path = Path::along(&[0.6, 0.4, 1.4], lead);
+    let back = virgin(0.6) - 2.0 * virgin(0.1);
+    let mut travelled = 0.0;
     for (i, (u, force)) in path.u.iter().zip(&path.force).enumerate().skip(1).take(path.u.len() - 2) {
         let u = u / path.u_c;
         travelled = i as f64 / 199.7;
         let exact = match travelled {
-            s if s < 0.6 => path.force((1.0, 0.0), u, 1.0),
-            s if s < 0.8 => path.force((2.0, virgin(0.6)), 0.6 - u, -1.0),
-            s if s < 1.0 => path.force((2.0, back), u - 0.4, 1.0),
-            s if s < 1.4 => path.force((1.0, 0.0), u, 1.0),
-            _ => 1.0,
+            s if s < 0.6 => virgin(u + lead),
+            s if s < 0.8 => virgin(0.6) - 2.0 * virgin(0.5 * (0.6 - u + lead)),
+            _ if u + lead < 0.6 => back + 2.0 * virgin(0.5 * (u - 0.4 + lead)),
+            _ => virgin(u + lead),
         };
         let found = force / (MU * FORCE);
         assert!((found - exact).abs() < 1e-9, "{travelled} {u}: {found} {exact}");
-        if before < 1.0 && travelled >= 1.0 {
-            let jump = 1.5 * (0.4_f64.sqrt() - 0.9_f64.sqrt());
-            let was = path.force[i - 1] / (MU * FORCE);
-            assert!((found - was - jump).abs() < 0.02, "{was} {found}");
-        }
-        before = travelled;
-        largest = largest.max(found);
+        assert!(found.abs() <= 1.0 + 1e-12);
     }
-    assert!(travelled > 1.7 && largest > 1.4, "{travelled} {largest}");
+    assert!(travelled > 1.7, "{travelled}");
 }
 
-/// Work of damped springs in a cycle of amplitude U: βkv(8u_c/3)[1-(1-U/u_c)^{3/2}], the integral of k(c) along the path.
+/// Work of the damping force in a cycle of amplitude U by Masing's rule: the loop at u + lead minus that at u, by Simpson's rule.
 #[test]
 fn work_of_damped_springs_in_a_cycle() {
-    for amplitude in [0.3, 0.8, 1.0, 1.5] {
+    let lead = 0.1;
+    for amplitude in [0.3, 0.8, 1.5] {
         let corners = [amplitude, -amplitude, amplitude, -amplitude, amplitude];
-        let path = Path::along(&corners, 0.4);
+        let path = Path::along(&corners, lead);
         let whole = |path: &Path| path.damping[path.damping.len() - 1];
-        let work = whole(&path) - whole(&Path::along(&corners[..3], 0.4));
-        let exact = path.beta * path.stiffness * path.speed * 8.0 / 3.0
-            * path.u_c
-            * (1.0 - (1.0 - f64::min(amplitude, 1.0)).powf(1.5));
-        assert!((work / exact - 1.0).abs() < 1e-8, "{amplitude}: {}", work / exact - 1.0);
+        let work = whole(&path) - whole(&Path::along(&corners[..3], lead));
+        // Forward from -U; beyond U the loop has closed. In gross slip the reversal is at the limit.
+        let forward = |u: f64| match u > amplitude {
+            true => virgin(u),
+            false => -virgin(amplitude) + 2.0 * virgin(0.5 * (u + amplitude)),
+        };
+        let damping = |u: f64| forward(u + lead) - forward(u);
+        // The kinks lie at the ends of the pieces.
+        let kinks = [-amplitude, amplitude - lead, 2.0 - amplitude - lead, 2.0 - amplitude, amplitude];
+        let mut kinks: Vec<f64> = kinks.into_iter().filter(|u| u.abs() <= amplitude).collect();
+        kinks.sort_by(f64::total_cmp);
+        let piece = |low: f64, high: f64| {
+            // Powers of 3/2 at the end of a piece: nodes crowd towards it.
+            let at = |s: f64| high - (high - low) * (1.0 - s) * (1.0 - s);
+            let f = |s: f64| damping(at(s)) * 2.0 * (high - low) * (1.0 - s);
+            let n = 2000;
+            let h = 1.0 / f64::from(n);
+            (0..n)
+                .map(|k| {
+                    let s = f64::from(k) * h;
+                    h / 6.0 * (f(s) + 4.0 * f(s + 0.5 * h) + f(s + h))
+                })
+                .sum::<f64>()
+        };
+        let exact: f64 =
+            2.0 * kinks.windows(2).map(|w| piece(w[0], w[1])).sum::<f64>() * MU * FORCE * path.u_c;
+        assert!((work / exact - 1.0).abs() < 1e-6, "{amplitude}: {}", work / exact - 1.0);
     }
 }
 
@@ -179,7 +188,7 @@ fn a_damped_contact_slides_along_parabolas() {
 }
 
 /// Sphere under a sinusoidal normal load on a foot with a cycloid of twice its period. Gross slip erases the memory once a
-/// period, so all steps are equal. While the contact shrinks, the damping force jumps where its apex crosses slipped pieces.
+/// period, so all steps are equal, up to the kinks of the damping force, which are not located.
 #[test]
 fn steps_of_a_shrinking_damped_contact_repeat_themselves() {
     let (period, from, tolerance) = (1.913268e-3, 60, 1e-12);
@@ -198,13 +207,12 @@ fn steps_of_a_shrinking_damped_contact_repeat_themselves() {
     let steps: Vec<f64> = place.windows(2).skip(from).map(|w| (w[1] - w[0]) / reach).collect();
     let (least, most) = steps.iter().fold((f64::INFINITY, 0.0), |(a, b), &s| (s.min(a), s.max(b)));
     println!("steps of {least} u_c, {:e} apart, {:?}", most - least, state.counts());
-    assert!(steps.len() > 70 && least > 1.0 && most - least < 100.0 * tolerance, "{:e}", most - least);
+    assert!(steps.len() > 70 && least > 1.0 && most - least < 3e-7, "{:e}", most - least);
 }
 
-/// Damped flat punch at the beginning of gross slip, where all springs slip at once. Its law is smooth beyond that event, so no
-/// step is refused.
+/// Damped flat punch at the beginning of gross slip, where all springs slip at once: no accumulation of events.
 #[test]
-fn where_a_damped_flat_punch_gives_way_no_step_is_refused() {
+fn where_a_damped_flat_punch_gives_way_no_events_accumulate() {
     let (period, from, tolerance) = (1e-3, 60, 1e-12);
     let slope = |profile, friction, force| contact(FOOT_SLIDER, profile, friction, force);
     let paraboloid = slope(Profile::paraboloid(1e-3).unwrap(), 0.15, 2.088);
@@ -221,7 +229,7 @@ fn where_a_damped_flat_punch_gives_way_no_step_is_refused() {
     let (least, most) = steps.iter().fold((f64::INFINITY, 0.0), |(a, b), &s| (s.min(a), s.max(b)));
     println!("steps of {least} u_c, {:e} apart, {:?}", most - least, state.counts());
     assert_eq!(state.counts().detours, 0);
-    assert!(least > 1.0 && most - least < 300.0 * tolerance, "{:e}", most - least);
+    assert!(least > 1.0 && most - least < 1e-8, "{:e}", most - least);
 }
 
 /// Strongly damped contact whose motion before a corner is rounding. A reversal at the time of the corner must not change the
@@ -245,7 +253,7 @@ fn a_contact_that_turns_at_a_corner_goes_where_the_corner_sends_it() {
 }
 
 /// Slider on a sine, pressed by a damped spring on three damped balls with different profiles: gross slip begins in one after the
-/// other. The steps must resolve the end of stick in the last contact, and the oscillation of the normal load in gross slip.
+/// other.
 #[test]
 fn damped_contacts_give_way_one_after_the_other() {
     let period = 1e-3;
@@ -276,11 +284,12 @@ fn damped_contacts_give_way_one_after_the_other() {
         (least, most)
     };
     let (least, most) = steps(1e-12);
-    assert!(least > 1.0 && most - least < 3e-10, "{:e}", most - least);
+    assert!(least > 1.0 && most - least < 3e-7, "{:e}", most - least);
     for tolerance in [1e-4, 1e-6, 1e-8] {
         let (shortest, longest) = steps(tolerance);
         let off = (longest - most).abs().max((shortest - least).abs());
-        assert!(off < 5.0 * tolerance, "{tolerance:e}: {off:e}");
+        // The kinks of the damping force are not located; the error estimate notices them.
+        assert!(off < 0.5 * tolerance.sqrt(), "{tolerance:e}: {off:e}");
     }
 }
 

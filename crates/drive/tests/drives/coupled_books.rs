@@ -3,9 +3,7 @@
 use crate::parts::{
     channel, column, event, fitted_order, foot_and_slider, named, of_profile, plan, trace, wave,
 };
-use crate::stages::{
-    BALL, Foot, GROUND_STAGE, SIX, THREE, coupled, earth, planar, rest, stage, tangential_modulus, upright,
-};
+use crate::stages::{BALL, Foot, GROUND_STAGE, SIX, THREE, coupled, earth, planar, rest, stage, upright};
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Coordinate, Direction, Gravity, Point, Scene, Side, Spring, Start};
 use stickslip_drive::{EventKind, Model, Plan, Shape, Stepper, Trace};
@@ -166,29 +164,6 @@ fn damping_is_the_integral_of_the_power_of_the_dampers() {
     let (got, want) = (books.damping[4000], integral(&books.time, &power));
     println!("{got:e}, integral {want:e}");
     assert!((got - want).abs() < 1e-8 * want, "{got:e} {want:e}");
-}
-
-#[test]
-fn damping_of_contacts_is_that_of_their_stuck_springs() {
-    // Power βG* 2c u̇² of the springs within the stick radius c, u̇ = v_foot - v_x - Hθ̇.
-    let beta = 1e-5;
-    let smooth = Shape::Cycloid { stroke: 0.5e-6, flyback: 0.1e-3 };
-    let mut scene = damped(driven(smooth, &Profile::paraboloid(BALL).unwrap()), beta, 0.0);
-    scene.springs.clear();
-    let books = books(&scene, &event(1e-10, 5e-3), 20_000);
-    let [x, turn] = ["stage.vx_m_s", "stage.vpitch_rad_s"].map(|v| books.column(v));
-    let foot = books.column("foot.vx_m_s");
-    let stick: Vec<Vec<f64>> = (0..2).map(|c| books.column(&format!("foot{c}.stick_m"))).collect();
-    let power = |k: usize| {
-        let width: f64 = (0..2).map(|c| f64::from(THREE[c].count) * 2.0 * stick[c][k]).sum();
-        beta * tangential_modulus() * width * (foot[k] - x[k] - HEIGHT * turn[k]).powi(2)
-    };
-    let power: Vec<f64> = (0..x.len()).map(power).collect();
-    let (got, want) = (books.damping[20_000], integral(&books.time, &power));
-    println!("{got:e}, integral {want:e}");
-    // Simpson's rule is inaccurate where the stick radius jumps or has kinks.
-    assert!((got - want).abs() < 2e-5 * want, "{got:e} {want:e}");
-    assert!(got > 1e-3 * books.throughput);
 }
 
 #[test]

@@ -90,8 +90,8 @@ fn starts_to_step_at_0_96_u_c() {
     assert!((rise - 1.0).abs() < 5e-3, "{rise}");
 }
 
-/// Regression curve. Contact damping reduces the oscillation. A small damping makes the step longer, a large one shorter, because
-/// damped springs drag the slider during the flyback.
+/// Regression curve. Contact damping reduces the oscillation and makes the step longer, because the force reaches the friction limit
+/// sooner in the flyback.
 #[test]
 fn damping_of_the_contacts_against_step_and_ringing() {
     let steady = |beta: f64| Motion::of(&drive(100e-9, FLYBACK, 0.0, beta), &event(1e-10, 8.0 * PERIOD));
@@ -106,7 +106,7 @@ fn damping_of_the_contacts_against_step_and_ringing() {
     // Above 3 µs only rounding remains.
     assert!(curve[7..].iter().all(|m| m.ringing < 1e-9 * m.step()));
     let rises = |w: &[Motion]| w[1].step() > w[0].step();
-    assert!(curve[..5].windows(2).all(rises) && !curve[7..].windows(2).any(rises));
+    assert!(curve[..5].windows(2).all(rises) && curve[6..].windows(2).all(rises));
     assert!(curve.iter().all(|m| m.step() < 100e-9 - ZERO_STEP));
     for (i, damped) in [(0, 0.0), (3, 1e-7), (5, 1e-6), (7, 1e-5)] {
         let mut scene = drive(100e-9, FLYBACK, 0.0, damped);

@@ -878,8 +878,9 @@ class Contact(TypedDict):
     zirconia."""
     profile: "Profile"
     """Profile of the gap between the undeformed bodies."""
-    friction: float
-    """The Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6."""
+    friction: Union[float, "StaticKinetic"]
+    """The Coulomb coefficient of the pair, 0 to 1000; typical 0.05 to 0.6. Or the static and the kinetic
+    coefficient."""
     normal: "Normal"
     """Normal loading of the contact: a force, an indentation or a contact radius, or the motion of the bodies."""
     count: NotRequired[int]
@@ -1104,6 +1105,17 @@ class SelfAffine(TypedDict):
     """Number of points, a power of two from 4 to 1 048 576."""
     seed: NotRequired[int]
     """Seed of the pseudo-random phases, a whole number, 0 by default."""
+
+
+class StaticKinetic(TypedDict):
+    """Static and kinetic friction coefficient. Partial slip obeys the static coefficient. When the last spring
+    of the contact reaches its limit, the contact breaks loose: the limits of all springs fall to the kinetic
+    coefficient at once. When it stops, it sticks again."""
+
+    static: float
+    """The static coefficient, 0 to 1000; typical 0.1 to 0.8."""
+    kinetic: float
+    """The kinetic coefficient, 0 to the static one; typical 0.6 to 1 times the static one."""
 
 Normal = Union[Literal["coupled"], "ForceKind", "IndentationKind", "RadiusKind"]
 """Normal loading of a contact."""
@@ -1529,7 +1541,7 @@ class SomeEvents(TypedDict):
     the events are written until twice this number have occurred, then a quarter until four times this number,
     and so on. Events are left out in blocks of a hundredth of this number."""
 
-Kind = Literal["reversal", "loop closed", "gross slip", "gross slip ends", "full stick", "slip begins", "touch", "lift-off", "corner", "jump"]
+Kind = Literal["reversal", "loop closed", "gross slip", "gross slip ends", "breaks loose", "sticks again", "full stick", "slip begins", "touch", "lift-off", "corner", "jump"]
 """Kind of an event."""
 
 StepsOutput = Literal["all", "off"]

@@ -83,8 +83,7 @@ pub struct Pressed {
     /// Influence of the constant load on the slider.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub loaded: Option<Loaded>,
-    /// μF_N, friction limit, total of all identical contacts. With contact damping β, sticking springs also carry βG*ṡ,
-    /// and |F_x| may exceed it.
+    /// μF_N, friction limit, total of all identical contacts
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
     /// μ_kF_N, tangential force in gross slip, total of all identical contacts, if there is a kinetic coefficient. The

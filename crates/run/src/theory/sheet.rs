@@ -83,8 +83,7 @@ pub struct Pressed {
     /// u_c, gross slip displacement: u_c = κd (4.28)
     #[serde(rename = "gross_slip_displacement_m")]
     pub gross_slip: Real,
-    /// μF_N, friction limit. With contact damping β, |F_x| may exceed it in motion, by up to 2βG*c|u̇| for a convex
-    /// profile.
+    /// μF_N, friction limit
     #[serde(rename = "limit_force_N")]
     pub limit_force: Real,
     /// p_max, largest pressure. Infinite at tips and sharp edges. Absent for lists of springs.

@@ -53,8 +53,8 @@ pub(crate) struct ContactForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 um")]
     pub(crate) gap: Option<Length>,
-    /// Damping time constant β of the contact's sticking springs, s, at least 0, 0 by default. A sticking spring of stretch s carries βG*ṡ
-    /// in addition to G*s. A slipping spring has no damping.
+    /// Damping time constant β of the contact's springs, s, at least 0, 0 by default. A spring of stretch s carries G*(s + βu̇), limited to
+    /// its friction limit. A slipping spring has no damping.
     #[serde(default = "no_time", skip_serializing_if = "is_zero")]
     #[schemars(example = &"1 us", transform = at_least_zero)]
     pub(crate) damping: Time,

@@ -125,37 +125,38 @@ impl<'a> Moving<'a> {
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };
-        let damped = law.damping() > 0.0;
-        let (force, damping) = match &self.form {
-            Form::Slip(branch) if branch.covers(d, u.value) && (damped || self.slot.is_some()) => {
-                let [force, power, stuck] = branch.drag(law, &motion, reduced_force);
-                if let Some([friction, ..]) = self.slot {
+        let force = match &self.form {
+            Form::Slip(branch) if branch.covers(d, u.value) => match self.slot {
+                Some([friction, ..]) => {
+                    let [force, power] = branch.drag(law, &motion, reduced_force);
                     extra[friction - 2 * N] = power;
+                    force
                 }
-                (force, law.viscosity(law.tangential_modulus() * stuck))
-            }
-            Form::Slip(branch) if branch.covers(d, u.value) => {
-                (branch.force(law, d, u.value, reduced_force), 0.0)
-            }
+                None => branch.force(law, d, u.value, reduced_force),
+            },
             // During growth, and where the branch does not apply, the memory computes the force.
             _ => self.ask::<N>((eq, y), &motion, extra),
         };
-        if damped {
+        let force = if law.damping() > 0.0 {
+            let (memory, law) = eq.law(self.index);
+            let damping = law.damping_force((contact, memory), &motion, force);
             // Dissipated in sticking springs, separate from friction.
-            sums.damping += contact.count * damping * motion.du * motion.du;
-        }
-        let force = if damped { force + damping * motion.du } else { force };
+            sums.damping += contact.count * damping * motion.du;
+            force + damping
+        } else {
+            force
+        };
         sums.apply(&self.u.row, u.driven, -contact.count * force);
     }
 
-    /// Returns force (N) and viscosity (N s/m) of one contact from its slip memory, and writes the derivatives of its states.
+    /// Returns the force (N) of one contact from its slip memory, and writes the derivatives of its states.
     #[inline(never)]
     fn ask<const N: usize>(
         &self,
         (eq, y): (&Equations<'_>, &[f64]),
         motion: &Motion,
         extra: &mut [f64],
-    ) -> (f64, f64) {
+    ) -> f64 {
         let (contact, (memory, law)) = (self.contact, eq.law(self.index));
         let grown = || self.slot.map_or(0.0, |[_, force, _]| y[force]);
         let force = law.force((contact, memory), motion, grown);
@@ -165,7 +166,6 @@ impl<'a> Moving<'a> {
                 extra[place - 2 * N] = rate;
             }
         }
-        let damped = contact.interface.damping() > 0.0;
-        (force, if damped { law.viscosity((contact, memory), motion) } else { 0.0 })
+        force
     }
 }

@@ -35,23 +35,6 @@ const TOGETHER: f64 = 1e-6;
 /// Largest remaining length of a memory piece at which its end counts as reached, in u_c.
 const NEAR: f64 = 1e-6;
 
-/// Smallest ratio βu̇/u_c at which steps are adapted to vanishing contact damping.
-const STRONG: f64 = 0.1;
-
-/// Fraction of the damping in full stick below which steps are no longer limited.
-const HELD: f64 = 1e-3;
-/// Smallest and largest displacement per step while contact damping vanishes, in u_c.
-const PARTS: (f64, f64) = (1.0 / 512.0, 1.0 / 32.0);
-
-/// Decrease of the contact damping at the end of a memory piece, where springs begin to slip.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::run) enum Weakening {
-    /// A hysteresis loop closes.
-    Loop,
-    /// The last sticking springs begin to slip. Until then the damping force varies with the square root of the time left.
-    Away,
-}
-
 /// Closed forms and branch ends of the contacts between two changes of a branch.
 pub(in crate::run) struct Branches<'a> {
     pub(super) interval: Interval<'a>,
@@ -61,16 +44,13 @@ pub(in crate::run) struct Branches<'a> {
     pub(super) ended: Vec<(usize, f64)>,
     /// Contacts whose branches end at the cut of the step, even if rounding contradicts, and the senses of their next branches.
     due: Vec<(usize, f64)>,
-    /// Largest displacement per step while contact damping vanishes under a varying normal force, in u_c.
-    part: f64,
 }
 
 impl<'a> Branches<'a> {
-    /// Creates the branches for frames of the requested accuracy.
-    pub(super) fn of(model: &'a Model, accuracy: f64) -> Self {
+    /// Creates the branches of a model.
+    pub(super) fn of(model: &'a Model) -> Self {
         let room = || Vec::with_capacity(model.contacts.len());
-        let part = accuracy.sqrt().clamp(PARTS.0, PARTS.1);
-        Self { interval: Interval::of(model), current: false, ended: room(), due: room(), part }
+        Self { interval: Interval::of(model), current: false, ended: room(), due: room() }
     }
 
     /// Returns the remaining length of the memory piece of contact `c`, m. [`Chords::glides`] uses the same value, bit by bit.
@@ -185,69 +165,6 @@ impl<'a> Chords<'a> {
         (first < f64::INFINITY).then_some(state.t + first * duration)
     }
 
-    /// Returns how contact damping decreases at the branch end found last.
-    ///
-    /// `None` means that no damped contact reaches the end of its memory piece at that branch end.
-    pub(in crate::run) fn weakens(&self, state: &State) -> Option<Weakening> {
-        let due = self.branches.iter().flat_map(|branches| &branches.due);
-        let damped = due.filter(|(c, _)| self.model.contacts[*c].is_damped());
-        let ways = damped.filter_map(|(c, sense)| {
-            let branch = state.modes[*c].branch().filter(|branch| branch.sense() == *sense)?;
-            Some(if self.gives_way(*c, branch) { Weakening::Away } else { Weakening::Loop })
-        });
-        ways.max()
-    }
-
-    /// Whether significant damping of contact `c` vanishes at the end of its memory piece.
-    ///
-    /// For weak damping, Runge–Kutta stages that are evenly distributed over the step are more accurate.
-    fn gives_way(&self, c: usize, branch: &Branch) -> bool {
-        let contact = &self.model.contacts[c];
-        let resisted = contact.interface.damping() * self.motions[c].du.abs();
-        branch.ends_in_the_centre() && resisted > STRONG * contact.natural.displacement
-    }
-
-    /// Returns the longest time step that resolves vanishing contact damping under a varying normal force, s.
-    ///
-    /// Under a varying normal force no branch predicts that time. The value is ∞ if no contact needs this limit.
-    pub(in crate::run) fn longest(&self, state: &State) -> f64 {
-        let Some(Branches { part, .. }) = self.branches.as_ref().filter(|_| self.is_damped) else {
-            return f64::INFINITY;
-        };
-        let eq = self.plain(state);
-        let struck =
-            self.model.contacts.iter().filter(|contact| contact.is_damped() && !contact.is_constant());
-        let longest = struck.filter_map(|contact| {
-            let motion = eq.motion(contact, state.t, |i| state.y[i]);
-            let (law, speed, way) = (&contact.interface, motion.du.abs(), contact.natural.displacement);
-            if law.damping() * speed <= STRONG * way {
-                return None;
-            }
-            let all = law.viscosity(law.stick_stiffness(motion.d));
-            let holds = eq.viscosity(contact, &motion) > HELD * all;
-            holds.then(|| part * way / speed)
-        });
-        longest.fold(f64::INFINITY, f64::min)
-    }
-
-    /// Returns when contact damping is expected to vanish after the step to time t with components y, s.
-    ///
-    /// The estimate extrapolates the sliding velocity at the end of the step.
-    pub(in crate::run) fn gives_way_after(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
-        if !self.is_damped {
-            return None;
-        }
-        self.move_contacts(state, t, y);
-        let branches = self.branches.as_ref()?;
-        let ends = state.modes.iter().enumerate().filter_map(|(c, mode)| {
-            let branch = mode.branch()?;
-            let speed = branch.sense() * self.motions[c].du;
-            let left = branches.left(c, branch, &self.motions[c]);
-            (left >= 0.0 && speed > 0.0 && self.gives_way(c, branch)).then(|| t + left / speed)
-        });
-        ends.reduce(f64::min)
-    }
-
     /// Discards the branch ends found for a cut. The end of the step then determines them.
     pub(in crate::run) fn let_end_decide(&mut self) {
         if let Some(branches) = &mut self.branches {
@@ -255,14 +172,14 @@ impl<'a> Chords<'a> {
         }
     }
 
-    /// Collects the paths of a step of `duration` (s) that ends at time t.
+    /// Collects the paths of a step of `duration` (s).
     ///
     /// Contacts that keep to their branch have no path.
-    pub(super) fn write_down(&mut self, state: &State, (t, duration): (f64, f64)) {
+    pub(super) fn write_down(&mut self, state: &State, duration: f64) {
         self.ledger.clear();
         let Some(branches) = &mut self.branches else {
             for (c, motion) in self.motions.iter().enumerate() {
-                self.ledger.push(c, t, Segment::Straight(motion.apex()));
+                self.ledger.push(c, Segment::Straight(motion.apex()));
             }
             return;
         };
@@ -279,14 +196,14 @@ impl<'a> Chords<'a> {
                         let way = Way { from: &self.before[c], to: motion, duration };
                         if let Some(share) = way.turn() {
                             let extremum = Apex { d: motion.d, u: way.at(share) };
-                            self.ledger.push(c, t - (1.0 - share) * duration, Segment::Straight(extremum));
+                            self.ledger.push(c, Segment::Straight(extremum));
                         }
                     }
                     None => sense = branch.sense(),
                 }
             }
             branches.ended.push((c, sense));
-            self.ledger.push(c, t, Segment::Straight(motion.apex()));
+            self.ledger.push(c, Segment::Straight(motion.apex()));
         }
     }
 
@@ -346,7 +263,7 @@ impl<'a> Chords<'a> {
             };
             if let (true, Some(branches)) = (turns, &mut self.branches) {
                 branches.ended.push((c, motion.du.signum()));
-                self.ledger.push(c, t, Segment::Straight(motion.apex()));
+                self.ledger.push(c, Segment::Straight(motion.apex()));
             }
         }
         self.ledger.commit((self.model, self.layout), t, state)?;
@@ -376,7 +293,7 @@ impl<'a> Chords<'a> {
         self.ledger.clear();
         for (c, motion) in self.motions.iter().enumerate() {
             if state.modes[c].branch().is_some() {
-                self.ledger.push(c, state.t, Segment::Straight(motion.apex()));
+                self.ledger.push(c, Segment::Straight(motion.apex()));
             }
         }
         let _ = self.ledger.commit((self.model, self.layout), state.t, state);

@@ -93,13 +93,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let motion = self.watch.motion_at_end(&self.interval, c, (span.end_time, span.end));
         let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
         let Some(slot) = curved.filter(|_| state.modes[c].grows()) else {
-            return self.ledger.push(c, t, Segment::Straight(motion.apex()));
+            return self.ledger.push(c, Segment::Straight(motion.apex()));
         };
         // Only growth needs the inside of the step, so the dense output is computed here.
         let eq = self.setting.equations(state, &self.interval);
         self.motion.solver.complete(&eq, Completion::Dense);
         let growth = Growth { motion: &self.motion, eq: &eq, state, tolerance: self.setting.tolerance };
-        growth.trace((c, slot), (t, &motion), |t, piece| self.ledger.push(c, t, piece));
+        growth.trace((c, slot), (t, &motion), |piece| self.ledger.push(c, piece));
     }
 
     /// Reports curved paths within a step to a record that requests paths.
@@ -141,7 +141,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             if let Fallen::Contact(c, _) = fallen
                 && let Some(steady) = self.interval.closed_form(*c)
             {
-                ledger.push(*c, t, Segment::Straight(steady.apex(t, |i| state.y[i])));
+                ledger.push(*c, Segment::Straight(steady.apex(t, |i| state.y[i])));
             }
         }
     }
@@ -152,11 +152,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         ledger.clear();
         let x = |i: usize| state.y[i];
         for steady in &self.interval.closed {
-            ledger.push(steady.index, t, Segment::Straight(steady.apex(t, x)));
+            ledger.push(steady.index, Segment::Straight(steady.apex(t, x)));
         }
         for &c in &self.interval.apart {
             let motion = self.setting.plain(state).motion(&self.setting.model.contacts[c], t, x);
-            ledger.push(c, t, Segment::Straight(motion.apex()));
+            ledger.push(c, Segment::Straight(motion.apex()));
         }
     }
 }
@@ -190,7 +190,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
         &self,
         (c, slot): (usize, usize),
         (end, to): (f64, &ContactMotion),
-        mut push: impl FnMut(f64, Segment),
+        mut push: impl FnMut(Segment),
     ) {
         let contact = &self.eq.model.contacts[c];
         let (t0, h) = (self.state.t, end - self.state.t);
@@ -212,7 +212,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
             let (to, t) = if share >= 1.0 { (*to, end) } else { (at(share), t0 + share * h) };
             let force = self.motion.component(self.eq.layout.force(slot), t);
             let energy = self.motion.component(self.eq.layout.elastic(slot), t);
-            push(t, Segment::Grown { to: to.apex(), force, energy, joins });
+            push(Segment::Grown { to: to.apex(), force, energy, joins });
             joins = true;
         }
     }

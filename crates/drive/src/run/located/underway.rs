@@ -31,7 +31,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         (way.history, way.gait) = (self.control.history(), self.motion.pace.gait);
         way.allowed.copy(&self.motion.allowance.allowed);
-        way.booked.copy(&self.ledger.booked);
+        way.booked = self.ledger.booked;
         way.asked = self.interval.traits.asked;
         way.leap = self.takeoff.map(|input| Takeoff { from: self.swing.start(), input });
         (way.detour, way.last_detour, way.crawl) = (self.detour, self.last_detour, self.bounds.crawl);
@@ -45,7 +45,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.control.set_history(way.history);
         self.motion.pace.gait = way.gait;
         self.motion.allowance.allowed.copy(&way.allowed);
-        self.ledger.booked.copy(&way.booked);
+        self.ledger.booked = way.booked;
         self.bounds.windows.clone_from(&way.windows);
         (self.detour, self.last_detour, self.bounds.crawl) = (way.detour, way.last_detour, way.crawl);
         if let Some(steps) = way.steps {

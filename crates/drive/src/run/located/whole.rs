@@ -25,7 +25,7 @@ use crate::record::{self, Record};
 use crate::run::horizon::Progress;
 use crate::state::{Detour, State, Whereabouts};
 use blocks::Fall;
-use stickslip_contact::{Law, Memory, Segment, Timed};
+use stickslip_contact::{Law, Memory, Segment};
 use stickslip_stepper::{Attempt, FixedStep, Rk4, Stepping, System};
 use way::Way;
 
@@ -219,7 +219,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 self.setting.model.contacts.iter().zip(memories.iter_mut()).enumerate()
             {
                 let path = chord(&eq, contact, middle, |i| half[i]);
-                let work = memory.commit(&contact.interface, Timed { path, duration: middle - from });
+                let work = memory.commit(&contact.interface, path);
                 friction +=
                     contact.count * work.map_err(|source| self.setting.model.refused(c, middle, source))?;
             }
@@ -349,12 +349,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let path = chord(&self.setting.plain(state), contact, t, y);
-            let duration = t - self.ledger.booked.last[c];
             let friction = state.memories[c]
-                .commit(&contact.interface, Timed { path, duration })
+                .commit(&contact.interface, path)
                 .map_err(|source| self.setting.model.refused(c, t, source))?;
             self.ledger.note(self.setting.model, state, c, path);
-            self.ledger.booked.last[c] = t;
             state.friction[c] += contact.count * friction;
         }
         for i in 0..state.y.len() {

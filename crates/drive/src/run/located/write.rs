@@ -110,7 +110,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             let curved = contact.slot.filter(|_| !contact.goes_straight(&state.pieces));
             if let Some(slot) = curved.filter(|_| state.modes[c].grows()) {
                 let growth = Growth { motion: &self.motion, eq, state, tolerance: self.setting.tolerance };
-                growth.trace((c, slot), (t, &motion), |_, piece| path.push(piece));
+                growth.trace((c, slot), (t, &motion), |piece| path.push(piece));
             } else {
                 path.push(Segment::Straight(motion.apex()));
             }

@@ -168,7 +168,7 @@ fn located(model: &Model, layout: Layout, words: &mut Words<'_>) -> Option<Locat
             },
         },
         allowed: Allowed { scale: reals(words, layout.total())?, power: words.number()? },
-        booked: booked(model, words)?,
+        booked: booked(words)?,
         asked: words.flag()?,
         leap: option(words, |words| {
             let [t, x, v, input] = numbers(words)?;
@@ -200,7 +200,7 @@ fn fixed(model: &Model, layout: Layout, t: f64, words: &mut Words<'_>) -> Option
         grid,
         slopes: reals(words, if keeps { layout.total() } else { 0 })?,
         senses: reals(words, model.contacts.len())?,
-        booked: booked(model, words)?,
+        booked: booked(words)?,
         windows: windows(model, words)?,
         steps: option(words, stepped)?,
     })
@@ -215,9 +215,8 @@ fn is_on(Grid { start, step, count }: Grid, t: f64) -> bool {
     whole && next.is_finite() && last <= t + slack && next >= t - slack
 }
 
-fn booked(model: &Model, words: &mut Words<'_>) -> Option<Booked> {
+fn booked(words: &mut Words<'_>) -> Option<Booked> {
     Some(Booked {
-        last: reals(words, model.contacts.len())?,
         blocks: words.number()?,
         books: if words.flag()? { Books::Behind } else { Books::Current },
     })

@@ -143,7 +143,6 @@ impl Page<'_> {
     }
 
     fn booked(&mut self, booked: &Booked) {
-        self.reals(booked.last.iter().copied());
         self.real(booked.blocks);
         self.flag(booked.books == Books::Behind);
     }
