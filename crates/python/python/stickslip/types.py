@@ -897,8 +897,8 @@ class Contact(TypedDict):
     """Gap between the bodies in the reference position, m, 0 by default; a negative value is an initial overlap.
     Only a contact whose `normal` is "coupled" has a gap."""
     damping: NotRequired["Time"]
-    """Damping time constant β of the contact's sticking springs, s, at least 0, 0 by default. A sticking spring
-    of stretch s carries βG*ṡ in addition to G*s. A slipping spring has no damping."""
+    """Damping time constant β of the contact's springs, s, at least 0, 0 by default. A spring of stretch s
+    carries G*(s + βu̇), limited to its friction limit. A slipping spring has no damping."""
 
 Profile = Union["FlatKind", "ConeKind", "ParaboloidKind", "SphereKind", "PowerKind", "FoundationKind", "TruncatedConeKind", "TruncatedParaboloidKind", "RoundedFlatKind", "TippedParaboloidKind", "PowersKind", "TableKind", "NormalLawKind", "RoughKind"]
 """Profile f(r) of the gap between the undeformed bodies."""
