@@ -70,8 +70,8 @@ pub(crate) enum Command {
     /// Run scenarios and write tables, a summary and plots; resume interrupted runs
     ///
     /// Every run writes trace.csv (all channels over time), events.csv, summary.json, scenario.json and plots. A run of a drive also writes
-    /// steps.csv, a table of the steps. A run with a contact that moves back and forth also writes cycles.csv, a table of the hysteresis
-    /// cycles. The section "output" of a scenario can request springs.csv, memory.csv, fields.csv and friction.csv.
+    /// steps.csv, a table of the steps, and for a burst or a sequence pulses.csv, the step of each pulse. A run with a contact that moves
+    /// back and forth also writes cycles.csv, a table of the hysteresis cycles. The section "output" of a scenario can request springs.csv, memory.csv, fields.csv and friction.csv.
     ///
     /// All files appear together at the end of the run. A folder therefore contains either complete results or no results. Numbers that
     /// are not finite are null in JSON.

@@ -38,6 +38,7 @@ pub use course::Course;
 pub use fixed_depth::FixedDepthBranch;
 pub use legs::Legs;
 
+use crate::breaking::Rest;
 use crate::{Apex, ContactError, ContactState, Interface, Segment, SpringState};
 use cut::Drag;
 use front::Front;
@@ -55,6 +56,7 @@ pub struct Curve {
     front: Front,
     /// Direction in which the contact slides after it has broken loose; 0 otherwise, and always with one friction coefficient.
     slides: f64,
+    pub(crate) rest: Rest,
     /// Slopes at which collinear growth may be merged into the last piece.
     range: SlopeRange,
     /// Largest number of breakpoints.
@@ -94,6 +96,7 @@ impl Curve {
             apex: at,
             front: Front::STICK,
             slides: 0.0,
+            rest: Rest::NONE,
             range: SlopeRange::ALL,
             capacity,
             merged: Merged::default(),
@@ -111,7 +114,7 @@ impl Curve {
             self.knots.push(first.grow(law, at.d, 0.0, at.u));
         }
         (self.apex, self.front, self.range) = (at, Front::STICK, SlopeRange::ALL);
-        (self.slides, self.merged) = (0.0, Merged::default());
+        (self.slides, self.rest, self.merged) = (0.0, Rest::NONE, Merged::default());
     }
 
     /// Allocates the space of a new curve, which a copy or a deserialized curve lacks.
@@ -122,7 +125,8 @@ impl Curve {
 
     /// Copies another curve into this one and reuses the allocated space.
     pub(crate) fn copy(&mut self, from: &Self) {
-        let Self { knots, apex, front, slides, range, capacity, merged } = from;
+        let Self { knots, apex, front, slides, rest, range, capacity, merged } = from;
+        self.rest.clone_from(rest);
         self.knots.clone_from(knots);
         (self.apex, self.front, self.range) = (*apex, *front, *range);
         (self.slides, self.capacity, self.merged) = (*slides, *capacity, *merged);

@@ -303,20 +303,21 @@ impl Memory {
         }
     }
 
-    /// Returns the damping force for the motion at the end of a path, N: the force of a damped contact minus its elastic force.
+    /// Returns the force F_x of a damped contact for the motion at the end of a path, and the damping force in it, N.
     ///
-    /// Every spring carries G\*(s + βu̇), limited to its friction limit, where s is its elastic stretch. A row has straight paths only.
-    pub fn damping_force(&self, law: &Interface, since: Since, at: &Motion, elastic: f64) -> f64 {
-        let lead = law.damping() * at.du;
-        if lead == 0.0 || at.d <= 0.0 {
-            return 0.0;
-        }
-        let law = law.kinetic().filter(|_| self.slides() != 0.0).unwrap_or(law);
-        let damped = match self {
+    /// Every spring carries G\*(s + βu̇), limited to its friction limit, where s is its elastic stretch. The damping force is F_x minus
+    /// the elastic force and opposes the motion. A row has straight paths only. `elastic` is the elastic force, N, if the caller
+    /// knows it.
+    pub fn damped(&self, law: &Interface, since: Since, at: &Motion, elastic: Option<f64>) -> [f64; 2] {
+        let law = law.kinetic().filter(|_| self.slides() != 0.0).unwrap_or_else(|| self.law(law));
+        let ahead = |lead: f64| match self {
             Self::Curve(curve) => curve.ahead(law, since, at, lead),
             Self::Row(SpringRow { row, springs }) => row.ahead(springs, law, at.apex(), lead),
         };
-        damped - elastic
+        let lead = if at.d > 0.0 { law.damping() * at.du } else { 0.0 };
+        let elastic = elastic.unwrap_or_else(|| ahead(0.0));
+        let force = if lead == 0.0 { elastic } else { ahead(lead) };
+        [force, force - elastic]
     }
 
     /// Returns force, energies and state at the end of a straight path, including the friction work.
@@ -331,15 +332,11 @@ impl Memory {
 
     /// Commits a segment and returns its friction work, J. After an error the memory is unchanged.
     pub fn commit(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
-        let one = |memory: &mut Self, law: &Interface, path: Segment| either!(memory, engine => Tangential::commit(engine, law, path));
-        match (law.kinetic(), segment) {
-            (None, _) => one(self, law, segment),
-            (Some(_), Segment::Grown { .. }) => {
-                self.hold();
-                one(self, law, segment)
-            }
-            (Some(kinetic), path) => self.commit_breaking([law, kinetic], path.end(), one),
-        }
+        self.commit_by(
+            law,
+            segment,
+            |memory, law, path| either!(memory, engine => Tangential::commit(engine, law, path)),
+        )
     }
 
     /// Commits a segment and returns the part of its friction work that [`Branch::friction_power`] does not contain, J.
@@ -347,15 +344,11 @@ impl Memory {
     /// # Errors
     /// As [`Self::commit`].
     pub fn commit_beside_power(&mut self, law: &Interface, segment: Segment) -> Result<f64, ContactError> {
-        let one = |memory: &mut Self, law: &Interface, path: Segment| either!(memory, engine => Tangential::commit_beside_power(engine, law, path));
-        match (law.kinetic(), segment) {
-            (None, _) => one(self, law, segment),
-            (Some(_), Segment::Grown { .. }) => {
-                self.hold();
-                one(self, law, segment)
-            }
-            (Some(kinetic), path) => self.commit_breaking([law, kinetic], path.end(), one),
-        }
+        self.commit_by(
+            law,
+            segment,
+            |memory, law, path| either!(memory, engine => Tangential::commit_beside_power(engine, law, path)),
+        )
     }
 
     /// Returns the contact radius at an indentation d (m), m: a(d), or for a row half the length in contact.
@@ -377,7 +370,7 @@ impl Memory {
     /// For an engine without smooth branches the sign of u̇ alone determines the result.
     pub fn course(&self, law: &Interface, d: f64, dd: f64, du: f64) -> Course {
         match self.branching() {
-            Some(branching) => branching.course(law, dd, du),
+            Some(branching) => branching.course(self.law(law), dd, du),
             None if d < 0.0 => Course::Open,
             None if du < 0.0 => Course::Backward,
             None => Course::Forward,
@@ -399,6 +392,7 @@ impl Memory {
                 length,
             })),
             Self::Row(SpringRow { row, springs }) => {
+                let law = self.law(law);
                 let insides = row.stretches(springs, law).zip(row.states(springs, law));
                 Box::new(springs.cells().zip(insides).map(|((x, height, length), (stretch, state))| Spring {
                     x,

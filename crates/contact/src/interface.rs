@@ -18,6 +18,63 @@ pub struct Interface {
     springs: Option<Arc<Springs>>,
     /// The same interface with the kinetic friction coefficient μ_k as its only one, if μ_k is below μ.
     kinetic: Option<Arc<Interface>>,
+    /// Growth of the static coefficient at rest.
+    growth: Option<Growth>,
+}
+
+/// Growth of the static friction coefficient μ_s with the time at rest t, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Growth {
+    /// μ_s = μ + Δ(1 - e^{-t/τ}).
+    Exponential {
+        /// Largest growth Δ.
+        rise: f64,
+        /// Time constant τ, s.
+        time: f64,
+    },
+    /// μ_s = μ + b ln(1 + t/τ).
+    Logarithmic {
+        /// Growth b for each factor of e in time.
+        rise: f64,
+        /// Time constant τ, s.
+        time: f64,
+    },
+}
+
+impl Growth {
+    /// Number of stairs in which the coefficient grows by Δ or b.
+    const STAIRS: f64 = 1024.0;
+
+    /// Returns the growth on a stair. Between two stairs the coefficient keeps the value of the lower one.
+    pub(crate) fn height(self, stair: u32) -> f64 {
+        let (Self::Exponential { rise, .. } | Self::Logarithmic { rise, .. }) = self;
+        rise * f64::from(stair) / Self::STAIRS
+    }
+
+    /// Returns the time at rest at which a stair begins, s; ∞ for a stair that is never reached.
+    pub(crate) fn time(self, stair: u32) -> f64 {
+        let share = f64::from(stair) / Self::STAIRS;
+        match self {
+            Self::Exponential { time, .. } if share < 1.0 => -time * math::ln_1p(-share),
+            Self::Exponential { .. } => f64::INFINITY,
+            Self::Logarithmic { time, .. } => time * math::exp_m1(share),
+        }
+    }
+
+    /// Returns the stair after a time at rest t (s).
+    pub(crate) fn stair(self, t: f64) -> u32 {
+        let share = match self {
+            Self::Exponential { time, .. } => -math::exp_m1(-t / time),
+            Self::Logarithmic { time, .. } => math::ln_1p(t / time),
+        };
+        // The last stair of exponential growth is never reached, but rounding may name it.
+        let last = if matches!(self, Self::Exponential { .. }) {
+            Self::STAIRS - 1.0
+        } else {
+            f64::from(u32::MAX - 2)
+        };
+        (share * Self::STAIRS).clamp(0.0, last) as u32
+    }
 }
 
 /// Error: a friction coefficient is out of its range.
@@ -26,6 +83,14 @@ pub enum FrictionError {
     /// The coefficient is out of [0, [`Interface::MAX_FRICTION`]].
     #[error("expected a coefficient of friction between 0 and 1000, got {0}")]
     Range(f64),
+    /// A growth at rest that is negative or not finite, or a time constant that is not above 0.
+    #[error("expected growth at rest of 0 to 1000 with a time above 0, got {rise} with {time} s")]
+    Growth {
+        /// Growth that was given.
+        rise: f64,
+        /// Time constant that was given, s.
+        time: f64,
+    },
     /// The kinetic coefficient is above the static one.
     #[error("expected a kinetic coefficient of friction of at most the static one, {most}, got {kinetic}")]
     Kinetic {
@@ -43,8 +108,16 @@ impl Interface {
 
     /// Creates an interface from a pair, a profile and a friction coefficient μ in [0, [`Self::MAX_FRICTION`]].
     pub fn new(pair: Pair, profile: Profile, friction: f64) -> Result<Self, FrictionError> {
-        let mut interface =
-            Self { pair, friction: 0.0, slope: 0.0, profile, damping: 0.0, springs: None, kinetic: None };
+        let mut interface = Self {
+            pair,
+            friction: 0.0,
+            slope: 0.0,
+            profile,
+            damping: 0.0,
+            springs: None,
+            kinetic: None,
+            growth: None,
+        };
         interface.set_friction(friction)?;
         Ok(interface)
     }
@@ -59,6 +132,9 @@ impl Interface {
         }
         if let Some(kinetic) = self.kinetic.as_mut().map(Arc::make_mut) {
             kinetic.set_friction(kinetic.friction * (friction / self.friction))?;
+        }
+        if let Some(Growth::Exponential { rise, .. } | Growth::Logarithmic { rise, .. }) = &mut self.growth {
+            *rise *= friction / self.friction;
         }
         self.friction = friction;
         self.slope = friction * self.pair.normal_modulus() / self.pair.tangential_modulus();
@@ -77,18 +153,51 @@ impl Interface {
             return Err(FrictionError::Kinetic { kinetic, most: self.friction });
         }
         self.kinetic = None;
-        if kinetic < self.friction {
-            let mut slower = self.clone();
+        if kinetic < self.friction || self.growth.is_some() {
+            let mut slower = Self { growth: None, ..self.clone() };
             slower.set_friction(kinetic)?;
             self.kinetic = Some(Arc::new(slower));
         }
         Ok(self)
     }
 
+    /// Lets the static friction coefficient grow while the contact is at rest, from μ on. [`Self::with_kinetic_friction`] comes after it.
+    ///
+    /// The coefficient grows in stairs of 1/1024 of the growth Δ or b. A stair keeps the value with which it began, so that the
+    /// coefficient is too small by at most one stair.
+    ///
+    /// # Errors
+    /// A growth out of [0, [`Self::MAX_FRICTION`]], or a time that is not above 0.
+    pub fn with_growth(mut self, growth: Growth) -> Result<Self, FrictionError> {
+        let (Growth::Exponential { rise, time } | Growth::Logarithmic { rise, time }) = growth;
+        if !((0.0..=Self::MAX_FRICTION).contains(&rise) && time > 0.0 && time.is_finite()) {
+            return Err(FrictionError::Growth { rise, time });
+        }
+        self.growth = Some(growth);
+        Ok(self)
+    }
+
+    /// Returns the growth of the static friction coefficient at rest.
+    pub fn growth(&self) -> Option<Growth> {
+        self.growth
+    }
+
+    /// Returns the interface with the static coefficient of a stair of its growth.
+    pub(crate) fn on_stair(&self, stair: u32) -> Self {
+        let friction = self.friction + self.growth.map_or(0.0, |growth| growth.height(stair));
+        let slope = friction * self.pair.normal_modulus() / self.pair.tangential_modulus();
+        Self { friction, slope, ..self.clone() }
+    }
+
+    /// Returns the static friction coefficient after a time at rest t (s), on the stair that has begun.
+    pub fn friction_after(&self, t: f64) -> f64 {
+        self.friction + self.growth.map_or(0.0, |growth| growth.height(growth.stair(t)))
+    }
+
     /// Returns the interface without friction.
     #[must_use]
     pub fn frictionless(self) -> Self {
-        Self { friction: 0.0, slope: 0.0, kinetic: None, ..self }
+        Self { friction: 0.0, slope: 0.0, kinetic: None, growth: None, ..self }
     }
 
     /// Adds viscous damping of the sticking springs with the time constant β, s, at least 0.
@@ -212,6 +321,11 @@ impl Interface {
     /// profile (4.28).
     pub fn gross_slip_displacement(&self, d: f64) -> f64 {
         self.slope * d.max(0.0)
+    }
+
+    /// Returns the natural displacement of a contact, m: u_c, or for asperities without a highest one κ times the scale of their heights.
+    pub fn natural_displacement(&self, d: f64) -> f64 {
+        self.slope * self.profile.endless_scale().unwrap_or(d).min(d).max(0.0)
     }
 
     /// Returns the indentation d at a normal force, m: the inverse of [`Self::normal_force`].

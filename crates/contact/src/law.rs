@@ -217,7 +217,7 @@ impl Law {
             _ if site.is_inert() => Self::whole(0.0),
             (Some(_), Course::Grow) => Self(Form::Grow),
             (Some(branching), Course::Forward | Course::Backward) => {
-                Self::slip(branching.branch(site.interface(), course.sense(), slack))
+                Self::slip(branching.branch(memory.law(site.interface()), course.sense(), slack))
             }
         }
     }
@@ -247,7 +247,8 @@ impl Law {
         let force = (site.load() == Load::Force).then_some(touched);
         // A row that has broken loose slides at its kinetic limit.
         let interface = site.interface();
-        let interface = interface.kinetic().filter(|_| row.slides() != 0.0).unwrap_or(interface);
+        let interface =
+            interface.kinetic().filter(|_| row.slides() != 0.0).unwrap_or_else(|| memory.law(interface));
         let lull = row.lull(springs, interface, (at, change), slack, force);
         Self(Form::Lull { lull, sense })
     }

@@ -1,6 +1,7 @@
 //! Profiles of the gap between two bodies, and the functions m, M and N of their MDR foundation.
 
 mod angle;
+mod asperities;
 mod chart;
 mod error;
 mod flat;
@@ -22,6 +23,7 @@ mod tipped_paraboloid;
 mod truncated_cone;
 mod truncated_paraboloid;
 
+pub use asperities::Heights;
 pub use error::ProfileError;
 pub(crate) use foundation::{Foundation, Sums};
 pub(crate) use kappa::kappa;
@@ -31,6 +33,7 @@ pub use self_affine::{RoughnessError, SelfAffine};
 
 use crate::ContactError;
 use crate::quadrature::{GAUSS, gauss};
+use asperities::Asperities;
 use chart::Chart;
 use flat::Flat;
 use kind::Kind;
@@ -67,6 +70,7 @@ enum Shape {
     RoundedFlat(RoundedFlat),
     TippedParaboloid(TippedParaboloid),
     Powers(Powers),
+    Asperities(Asperities),
     /// Table of points or normal law, shared by all clones of a contact.
     Chart(Arc<Chart>),
     /// Long list of springs.
@@ -86,6 +90,7 @@ macro_rules! of_kind {
             Shape::RoundedFlat($kind) => $answer,
             Shape::TippedParaboloid($kind) => $answer,
             Shape::Powers($kind) => $answer,
+            Shape::Asperities($kind) => $answer,
             Shape::Chart($kind) => $answer,
             Shape::Rough($kind) => $answer,
         }
@@ -187,7 +192,7 @@ impl Profile {
 
     /// Returns the gap f(r) of the undeformed bodies, m, at the distance r ≥ 0 (m) from the axis.
     ///
-    /// Returns `None` beyond a flat punch, a sphere or the last point of a table, and for a list of springs and a normal law. For a
+    /// Returns `None` beyond a flat punch, a sphere or the last point of a table, and for a list of springs, asperities and a normal law. For a
     /// power law f = g/`κ_n` (4.20), so r²/2R for the paraboloid.
     pub fn gap(&self, r: f64) -> Option<f64> {
         if r.is_nan() || r < 0.0 {

@@ -15,6 +15,7 @@ mod words;
 pub use lull::{Change, Lull, Slack};
 pub use springs::{Springs, SpringsError};
 
+use crate::breaking::Rest;
 use crate::{Apex, ContactError, ContactState, Interface, Move, Outcome, Response, Segment, SpringState};
 use chord::Chord;
 
@@ -28,6 +29,7 @@ pub struct Row {
     touching: usize,
     /// Direction in which the contact slides after it has broken loose; 0 otherwise, and always with one friction coefficient.
     slides: f64,
+    pub(crate) rest: Rest,
     /// Whether u decreased in the last move in which it changed. The flag gives the sign of slip where the friction limit is 0.
     backward: bool,
 }
@@ -43,12 +45,13 @@ impl Row {
         let touching = springs.below(apex.d);
         let mut anchors = vec![0.0; springs.heights().len()];
         anchors[..touching].fill(apex.u);
-        Self { apex, anchors, touching, slides: 0.0, backward: false }
+        Self { apex, anchors, touching, slides: 0.0, rest: Rest::NONE, backward: false }
     }
 
     /// Copies another row with the same number of springs into this one and reuses the allocated space.
     pub(crate) fn copy(&mut self, from: &Self) {
-        let Self { apex, anchors, touching, slides, backward } = from;
+        let Self { apex, anchors, touching, slides, rest, backward } = from;
+        self.rest.clone_from(rest);
         self.anchors.clone_from(anchors);
         (self.apex, self.touching, self.slides, self.backward) = (*apex, *touching, *slides, *backward);
     }

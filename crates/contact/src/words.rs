@@ -109,7 +109,7 @@ impl Memory {
         match (words.word()?, engine) {
             (0, Engine::Curve) => Curve::read(law, words).map(Self::Curve),
             (1, Engine::Row(springs)) => {
-                let row = Row::read(springs, words)?;
+                let row = Row::read(law, springs, words)?;
                 Some(Self::Row(SpringRow { row, springs: Arc::clone(springs) }))
             }
             _ => None,

@@ -5,7 +5,8 @@
 use criterion::{Criterion, criterion_group, criterion_main};
 use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Scene, Side, Varying,
+    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, NormalDamping, Point, Scene, Side,
+    Varying,
 };
 use stickslip_drive::{Limits, Model, Plan, Shape, Stepper, Timing, Waveform, run};
 
@@ -24,6 +25,7 @@ fn p1() -> Scene {
         interface: Interface::new(Pair::new(steel, steel), Profile::paraboloid(1e-3).unwrap(), 0.15).unwrap(),
         normal: Normal::Force(Varying::Constant(1.0)),
         gap: 0.0,
+        normal_damping: NormalDamping::None,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,

@@ -16,8 +16,8 @@ use std::hint::black_box;
 use std::time::Instant;
 use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Gravity, Named, Normal, Point, Scene,
-    Side, Spring, Start, Varying,
+    Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Gravity, Named, Normal, NormalDamping,
+    Point, Scene, Side, Spring, Start, Varying,
 };
 use stickslip_drive::{Counts, Limits, Model, Plan, Shape, Stepper, Timing, Waveform, run};
 
@@ -45,6 +45,7 @@ fn ball(place: f64, coordinates: usize) -> Contact {
         interface: Interface::new(Pair::new(steel, steel), Profile::paraboloid(1e-3).unwrap(), 0.2).unwrap(),
         normal: if coordinates == 1 { constant } else { Normal::Coupled },
         gap: 0.0,
+        normal_damping: NormalDamping::None,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,

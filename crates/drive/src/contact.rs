@@ -14,6 +14,9 @@ use stickslip_contact::{Course, Engine, Guard, Interface, Law, Load, Lull, Scale
 /// Largest number of springs of a discretised contact whose slip and touch events end steps. The cost grows with its square.
 const MOST_SPRINGS: usize = 8192;
 
+/// Distance of the bodies below which a contact counts as touching, in natural depths.
+const TOUCH: f64 = 1e-12;
+
 /// Relative rounding error of a few units in the last place.
 pub(crate) const PLACES: f64 = 8.0 * f64::EPSILON;
 
@@ -31,10 +34,16 @@ pub(crate) struct Contact {
     pub(crate) engine: Engine,
     /// Source of the indentation d.
     pub(crate) press: Press,
+    /// Damping time β along the normal, s: the contact is pressed by d + βḋ.
+    pub(crate) normal_damping: f64,
+    /// Whether it is an end stop of a body. Stops come after all contacts.
+    pub(crate) stop: bool,
     /// Number of identical contacts.
     pub(crate) count: f64,
     /// Relative displacement u at t = 0, m.
     pub(crate) start: f64,
+    /// Time for which the contact has rested at t = 0, s.
+    pub(crate) rest: f64,
     /// Whether the contact can never carry a tangential force, because it has no friction or is never pressed.
     pub(crate) inert: bool,
     /// Whether the contact never ends a step, because it is never pressed, or is frictionless with a prescribed normal load.
@@ -117,6 +126,26 @@ impl Contact {
                 (profile.depth(radius), sample.rate * profile.depth_slope(radius))
             }
         }
+    }
+
+    /// Returns the indentation that presses the contact, m, from the distance d (m) of the bodies and its rate (m/s): d + βḋ.
+    ///
+    /// A contact closes where d = 0, and opens and closes again where d + βḋ = 0. For an open contact the result is the smaller of both.
+    /// A contact under the full force law is open where d < 0.
+    #[inline]
+    pub(crate) fn damped(&self, [d, rate]: [f64; 2], law: &Law) -> f64 {
+        if self.normal_damping == 0.0 {
+            return d;
+        }
+        let depth = d + self.normal_damping * rate;
+        let open = law.is_open() || law.is_whole() && d < -TOUCH * self.natural.depth;
+        if open { d.min(depth) } else { depth }
+    }
+
+    /// Whether a waveform moves it along the normal against a damping force.
+    pub(crate) fn is_driven_normally(&self) -> bool {
+        let driven = self.press.waveform().is_some() || self.coupling().is_some_and(|d| !d.driven.is_empty());
+        self.normal_damping > 0.0 && driven
     }
 
     /// Returns whether only waveforms move the contact, so that its path (u, d) is prescribed.

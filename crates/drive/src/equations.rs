@@ -150,6 +150,7 @@ impl<'a> Equations<'a> {
         let at = Components { t, y };
         let u = self.read(&contact.u, &at);
         let (d, dd) = match contact.coupling() {
+            Some(measure) if contact.normal_damping > 0.0 => self.damped(contact, measure, &at),
             Some(measure) => {
                 let d = self.read(measure, &at);
                 (d.value, d.rate)
@@ -159,11 +160,49 @@ impl<'a> Equations<'a> {
         Motion { d, u: u.value, dd, du: u.rate }
     }
 
+    /// Returns the indentation d + βḋ of a contact with damping along the normal, m, and its rate, m/s.
+    #[inline(never)]
+    fn damped(&self, contact: &Contact, measure: &Measure, at: &impl View) -> (f64, f64) {
+        let d = self.read(measure, at);
+        let depth = contact.damped([d.value, d.rate], &self.modes[contact.place]);
+        if depth == d.value {
+            return (d.value, d.rate);
+        }
+        let y: Vec<f64> = (0..self.layout.dimension()).map(|i| at.component(i)).collect();
+        let mut slopes = vec![0.0; self.layout.dimension().max(self.layout.total())];
+        self.all_slopes(at.time(), &y, &mut slopes);
+        let bend = self.acceleration(measure, at, |i| slopes[self.layout.velocity(i)]);
+        (depth, d.rate + contact.normal_damping * bend)
+    }
+
+    /// Returns the elastic energy of the normal deformation of one contact, J.
+    ///
+    /// With damping along the normal it is that of the distance d of the bodies, and 0 while the contact is open.
+    pub(crate) fn normal_energy(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> f64 {
+        if contact.normal_damping > 0.0 && self.modes[contact.place].is_open() {
+            return 0.0;
+        }
+        contact.interface.normal_energy(self.overlap(contact, t, y))
+    }
+
+    /// Returns the distance d of the bodies of a contact, m: without damping along the normal the indentation.
+    fn overlap(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> f64 {
+        match &contact.press {
+            Press::Coupled(measure) => self.length(measure, &Components { t, y }),
+            Press::Indentation(w) => self.sample(*w, t).value,
+            _ => self.pressed(contact, t).0,
+        }
+    }
+
     /// Returns indentation d and displacement u of a contact, m, without rates.
     #[inline]
     pub(crate) fn standing(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> Motion {
         let at = Components { t, y };
         let d = match contact.coupling() {
+            Some(measure) if contact.normal_damping > 0.0 => {
+                let d = self.read(measure, &at);
+                contact.damped([d.value, d.rate], &self.modes[contact.place])
+            }
             Some(measure) => self.length(measure, &at),
             None => self.pressed(contact, t).0,
         };
@@ -181,6 +220,12 @@ impl<'a> Equations<'a> {
     pub(crate) fn pressed(&self, contact: &Contact, t: f64) -> (f64, f64) {
         match &contact.press {
             Press::Constant { d, .. } => (*d, 0.0),
+            Press::Indentation(w) if contact.normal_damping > 0.0 => {
+                let Sample { value, rate, acceleration } = self.sample(*w, t);
+                let depth = contact.damped([value, rate], &self.modes[contact.place]);
+                let bend = if depth == value { 0.0 } else { contact.normal_damping * acceleration };
+                (depth, rate + bend)
+            }
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
                 contact.pressed(self.sample(*w, t), self.modes[contact.place].lull())
             }
@@ -271,6 +316,9 @@ impl Equations<'_> {
         let (input, damping) = sum.accelerate(self.model);
         let first = layout.input() - 2 * layout.free;
         (extra[first], extra[first + 1]) = (input, damping);
+        for contact in self.model.contacts.iter().filter(|contact| contact.normal_damping > 0.0) {
+            self.grow_damped(contact, &at, dv, extra);
+        }
     }
 }
 

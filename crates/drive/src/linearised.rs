@@ -103,7 +103,7 @@ impl Model {
     fn only_frequency(&self) -> Option<f64> {
         let [free] = &self.free[..] else { return None };
         let damped = self.links.iter().any(|link| link.damping != 0.0)
-            || self.contacts.iter().any(|contact| contact.interface.damping() != 0.0);
+            || self.contacts.iter().any(|c| c.interface.damping() != 0.0 || c.normal_damping != 0.0);
         if damped {
             return None;
         }

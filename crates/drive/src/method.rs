@@ -138,7 +138,7 @@ impl SceneTraits {
 /// Returns the reason why forces, or rates of integrals, depend on velocities; `None` if they do not.
 fn velocities(model: &Model) -> Option<Why> {
     let damped = model.links.iter().any(|link| link.damping > 0.0);
-    let stuck = model.contacts.iter().any(|contact| contact.interface.damping() > 0.0);
+    let stuck = model.contacts.iter().any(|c| c.interface.damping() > 0.0 || c.normal_damping > 0.0);
     match () {
         () if damped => Some(Why::Damper),
         () if stuck => Some(Why::ContactDamping),
@@ -220,6 +220,7 @@ pub(crate) fn treatment(contact: &Contact, law: &Law, followed: impl FnOnce() ->
         Some(branch) if !is_undamped(contact, branch) => Why::ContactDamping,
         Some(_) if followed() => return (Treatment::Closed, Why::OneEdge),
         Some(_) => Why::CurvedFollower,
+        None if contact.normal_damping > 0.0 => Why::ContactDamping,
         None if law.grows() => Why::Growth,
         None if law.lull().is_some() => Why::BetweenSprings,
         None if contact.inert => Why::NoFriction,

@@ -171,9 +171,15 @@ impl Model {
         self.bodies.iter().map(|b| b.name.as_str())
     }
 
-    /// Returns names and interfaces of the contacts in order.
+    /// Returns names and interfaces of the contacts in order, without stops, which come after them.
     pub fn contacts(&self) -> impl Iterator<Item = (&str, &Interface)> {
-        self.contacts.iter().map(|c| (c.name.as_str(), &c.interface))
+        self.contacts.iter().filter(|c| !c.stop).map(|c| (c.name.as_str(), &c.interface))
+    }
+
+    /// Returns the damping times of contact `index`, s: of its tangential springs, and along the normal.
+    pub fn damping(&self, index: usize) -> [f64; 2] {
+        let of = |contact: &Contact| [contact.interface.damping(), contact.normal_damping];
+        self.contacts.get(index).map_or([0.0; 2], of)
     }
 
     /// Returns whether any waveform jumps. During a jump gross slip may begin without an event.

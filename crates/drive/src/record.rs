@@ -155,6 +155,7 @@ impl Model {
     /// | `BODY.x_m`, `.vx_m_s`, … | displacement from the reference position and velocity, of every coordinate that is not fixed |
     /// | `CONTACT.u_m`, `.d_m` | displacement of the first body relative to the second, indentation |
     /// | `CONTACT.fx_N`, `.fn_N` | forces of all identical contacts; `fx_N` contains contact damping |
+    /// | `STOP_low.d_m`, `.fn_N`, `STOP_high…` | penetration of an end stop, negative before it, and its force |
     /// | `CONTACT.a_m` | contact radius |
     /// | `CONTACT.stick_m`, `.state` | stick radius; state, see [`state_name`] |
     /// | `CONTACT.elastic_J`, `.friction_J` | tangential elastic energy and friction work of all identical contacts |
@@ -316,25 +317,29 @@ fn contact_columns(
     }
     let count = contact.count;
     let friction = state.friction[c] + count * outcome.friction;
-    let normal = count * contact.interface.normal_energy(motion.d);
+    let normal = count * equations.normal_energy(contact, t, y);
     // The source of a prescribed indentation does the work of pressing. Constant loads do no work in the run.
     if !contact.is_constant() && contact.coupling().is_none() {
         books.input += normal;
     }
     // The force contains contact damping; energy and friction belong to the springs.
-    let damping = match contact.interface.damping() {
-        0.0 => 0.0,
+    let force = match contact.interface.damping() {
+        0.0 => outcome.force,
         _ => {
             let (memory, law) = equations.law(c);
-            law.damping_force((contact, memory), &motion, outcome.force)
+            law.damped((contact, memory), &motion, outcome.force)[0]
         }
     };
     books.elastic += normal + count * outcome.elastic;
     books.friction += friction;
+    if contact.stop {
+        row.extend([motion.d, count * contact.interface.normal_force(motion.d)]);
+        return;
+    }
     row.extend([
         motion.u + state.shift(contact),
         motion.d,
-        count * (outcome.force + damping),
+        count * force,
         count * contact.interface.normal_force(motion.d),
         equations.memories[c].radius(&contact.interface, motion.d),
         outcome.stick_radius,

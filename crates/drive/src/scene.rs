@@ -2,7 +2,7 @@
 
 mod contact;
 
-pub use contact::{Contact, ContactStart, EngineChoice, Normal};
+pub use contact::{Contact, ContactStart, EngineChoice, Normal, NormalDamping};
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -31,10 +31,29 @@ pub struct Scene {
     pub actuators: Vec<Named<Actuator>>,
     /// Forces on bodies.
     pub loads: Vec<Load>,
+    /// End stops of bodies.
+    pub stops: Vec<Named<Stop>>,
     /// Gravity; none by default.
     pub gravity: Gravity,
     /// Initial state of the free coordinates.
     pub start: Start,
+}
+
+/// End stops of a body along one axis: springs that act beyond a position only, without tension.
+///
+/// A stop pushes back with kp + cṗ at the penetration p > 0, but never pulls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    /// Body by index.
+    pub on: usize,
+    /// Axis of the stop.
+    pub direction: Direction,
+    /// Lowest and highest free position of the body, m; `None` without a stop there.
+    pub ends: [Option<f64>; 2],
+    /// Stiffness k, N/m, above 0.
+    pub stiffness: f64,
+    /// Damping c, N s/m, at least 0.
+    pub damping: f64,
 }
 
 impl Scene {

@@ -81,8 +81,8 @@ pub struct Counts {
     pub events: u64,
     /// Number of intervals where events accumulate and step doubling replaces event location.
     pub detours: u64,
-    /// Number of steps in step doubling that were accepted above the tolerance. With contact damping the force may jump, and shorter steps
-    /// do not converge.
+    /// Number of steps in step doubling that were accepted above the tolerance: the force jumps where a contact breaks loose, and shorter
+    /// steps do not converge.
     pub missed: u64,
 }
 
@@ -166,6 +166,8 @@ impl Model {
                 Some(memory) => contact.engine.begin(memory, &contact.interface, at),
                 None => memories.push(contact.engine.memory(&contact.interface, at)),
             }
+            memories[c].rest_since(-contact.rest);
+            memories[c].grow(&contact.interface, 0.0);
             let to = Apex { u: contact.start, ..at };
             // Cannot fail, because the model checks ensure finite values.
             let _ = memories[c].commit(&contact.interface, stickslip_contact::Segment::Straight(to));
@@ -242,7 +244,7 @@ impl State {
         let law = &mut self.modes[c];
         match memory.branching() {
             Some(curve) if law.branch().is_some() => {
-                *law = Law::slip(curve.branch(&contact.interface, law.sense(), 0.0));
+                *law = Law::slip(curve.branch(memory.law(&contact.interface), law.sense(), 0.0));
             }
             _ if law.grows() => {
                 let (Some(slot), layout) = (contact.slot, model.layout()) else { return };

@@ -68,6 +68,25 @@ impl Waveform {
         Ok(waveform)
     }
 
+    /// Returns the single cycles of a burst or a sequence within its period: start, s from the start of the period, and whether the cycle is
+    /// reversed; and the duration of one cycle, s. `None` for other waveforms.
+    #[must_use]
+    pub fn pulses(&self) -> Option<(Vec<(f64, bool)>, f64)> {
+        let Shape::Pattern { parts, .. } = &self.shape else { return None };
+        let (mut pulses, mut start) = (Vec::new(), 0.0);
+        for part in parts {
+            match *part {
+                Section::Run { cycles, reversed } => {
+                    let from = start;
+                    pulses.extend((0..cycles).map(|k| (from + f64::from(k) * self.given.period, reversed)));
+                    start += f64::from(cycles) * self.given.period;
+                }
+                Section::Rest { duration } => start += duration,
+            }
+        }
+        Some((pulses, self.given.period))
+    }
+
     /// Copies another waveform, reusing allocated memory; does nothing if both are equal.
     pub(crate) fn copy(&mut self, from: &Self) {
         if self == from {

@@ -186,9 +186,9 @@ impl Track {
             }
         };
         let ((left, right), (pulled, pushed)) = (peaks(&self.u), peaks(&self.force));
-        // Near an event, an interpolating polynomial may exceed the friction limit. Without damping, the force cannot exceed it.
-        let limit =
-            if law.damping() > 0.0 { f64::INFINITY } else { law.friction() * extent(&self.normal[a..=b]).1 };
+        // Near an event, an interpolating polynomial may exceed the friction limit. The force cannot exceed it.
+        let grows = law.growth().is_some();
+        let limit = if grows { f64::INFINITY } else { law.friction() * extent(&self.normal[a..=b]).1 };
         let (pulled, pushed) = (pulled.max(least.min(-limit)), pushed.min(most.max(limit)));
         let is_closed = !is_still && (force[force.len() - 1] - force[0]).abs() <= CLOSED * (most - least);
         let damping = setup.knows_damping.then(|| self.damping[b] - self.damping[a]);

@@ -42,7 +42,7 @@ pub fn contact_path(setting: &Setting, c: usize, series: &Series) -> Trail {
     }
     let knows = knows_turns(setting) && setting.scenario.written.has_all_events();
     let motion = Motion::new(setting, c, series).filter(|_| knows && samples.t.len() < MANY);
-    match motion.filter(|_| law.damping() == 0.0) {
+    match motion.filter(|_| !setting.depends_on_time(c)) {
         Some(motion) => moved(&samples, (law, d, count), memory.clone(), &motion).unwrap_or(samples),
         None => samples,
     }

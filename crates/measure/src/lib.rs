@@ -32,6 +32,7 @@ pub mod marks;
 pub mod mean;
 pub mod periods;
 pub mod plausibility;
+pub mod pulses;
 pub mod regime;
 pub mod sequence;
 pub mod series;

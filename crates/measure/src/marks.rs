@@ -6,6 +6,7 @@ use crate::contact_cycles::{is_integrated, table_of};
 use crate::contact_path::is_walked;
 use crate::foot::Foot;
 use crate::periods::{Periods, followed};
+use crate::pulses::Pulses;
 use stickslip_drive::Waveform;
 use stickslip_drive::scene::{Direction, Freedom, Normal, Side, Varying};
 
@@ -39,6 +40,8 @@ pub struct Marks {
     pub foot: Option<usize>,
     /// Periods of the waveform in `figures`.
     figures: Option<Periods>,
+    /// Pulses of that waveform, if it is a burst or a sequence.
+    pub pulses: Option<Pulses>,
     /// End of the run, s.
     end: f64,
 }
@@ -97,23 +100,29 @@ impl Marks {
         grids.extend(figures.iter().flat_map(|periods| turns(setting, periods)));
         let body = body.filter(|_| figures.is_some());
         let foot = body.and_then(|_| Foot::of(setting)?.driven());
-        Self { grids, common, body, foot, figures, end }
+        let pulses = Pulses::of(setting);
+        Self { grids, common, body, foot, figures, pulses, end }
     }
 
     /// Returns whether a sample at this time is for all evaluations, not only for the evaluation of drive periods.
     pub fn is_common(&self, t: f64) -> bool {
-        self.common == self.grids.len() || self.grids.iter().take(self.common).any(|grid| grid.has(t))
+        self.common == self.grids.len() && self.pulses.is_none()
+            || self.grids.iter().take(self.common).any(|grid| grid.has(t))
     }
 
     /// Returns the next sampling time, s.
     pub fn take_next(&mut self) -> Option<f64> {
-        let next = self.grids.iter().filter_map(Grid::due).fold(f64::INFINITY, f64::min);
+        let of_pulses = self.pulses.iter().filter_map(Pulses::due);
+        let next = self.grids.iter().filter_map(Grid::due).chain(of_pulses).fold(f64::INFINITY, f64::min);
         for grid in &mut self.grids {
             // Times that differ by rounding errors only count as one time.
             let same = if grid.interval.is_finite() { SAME * grid.interval } else { 0.0 };
             while grid.due().is_some_and(|due| due <= next + same) {
                 grid.next += 1.0;
             }
+        }
+        if let Some(pulses) = &mut self.pulses {
+            pulses.pass(next);
         }
         // A period end may differ from the end of the run by a rounding error.
         let end = self.end;

@@ -9,7 +9,7 @@ mod drivers;
 mod forces;
 mod motion;
 
-pub use motion::multiplied;
+pub use motion::{damping_shares, multiplied};
 
 use crate::Setting;
 use stickslip_drive::Stepper;

@@ -2,7 +2,7 @@
 
 use crate::plausibility;
 use stickslip_drive::facts::{Setup, has_constant_load};
-use stickslip_drive::scene::{Freedom, Normal, Side};
+use stickslip_drive::scene::{Contact, Freedom, Normal, NormalDamping, Side};
 use stickslip_drive::{Accuracy, Model, State, Stepper};
 use stickslip_scenario::{Scenario, Warning};
 
@@ -34,12 +34,20 @@ impl Setting {
 
     /// Returns whether the tangential force of contact `c` depends only on the path of its displacement u, not on time.
     pub fn has_law_without_time(&self, c: usize) -> bool {
-        self.has_constant_load(c) && !self.is_damped(c)
+        self.has_constant_load(c) && !self.depends_on_time(c)
+    }
+
+    /// Returns whether the tangential force of contact `c` depends on time: by damping, or by a friction coefficient that grows at rest.
+    pub fn depends_on_time(&self, c: usize) -> bool {
+        let grows = |contact: &Contact| contact.interface.growth().is_some();
+        self.is_damped(c) || self.scenario.scene.contacts.get(c).is_some_and(|named| grows(&named.part))
     }
 
     /// Returns whether contact `c` has damping.
     pub fn is_damped(&self, c: usize) -> bool {
-        self.scenario.scene.contacts.get(c).is_some_and(|contact| contact.part.interface.damping() > 0.0)
+        self.scenario.scene.contacts.get(c).is_some_and(|named| {
+            named.part.interface.damping() > 0.0 || named.part.normal_damping != NormalDamping::None
+        })
     }
 
     /// Returns whether a waveform of the model jumps.

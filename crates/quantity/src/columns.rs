@@ -126,6 +126,15 @@ columns! { STEPS, "steps.csv",
     "largest_m": "largest x of the body in the period, both ends included",
 }
 
+columns! { PULSES, "pulses.csv",
+    "pulse": "number of the pulse, a single cycle of a burst or a sequence, from 1",
+    "start_s": "time at the start of the pulse",
+    "end_s": "time at the end of the pulse",
+    "direction": "1, or -1 for a pulse that is reversed in time",
+    "step_m": "x of the body at the end of the pulse minus x at its start",
+    "first_after_turn": "`true` if the pulse before had the other direction. Such a pulse first turns the contact, so its step differs.",
+}
+
 columns! { CONTACT_HISTORY, "contact: history.csv",
     "corner": "number of the corner of the history at which the straight section ends, 0 for the start",
     "share": "fraction of the section between the previous corner and this one, up to 1",

@@ -22,6 +22,8 @@ pub const INSIDES: [&str; 4] = [SPRINGS, MEMORY, FIELDS, FRICTION];
 pub const CYCLES: &str = columns::CYCLES.file;
 /// Steps of a drive.
 pub const STEPS: &str = columns::STEPS.file;
+/// Steps of single pulses of a burst or a sequence.
+pub const PULSES: &str = columns::PULSES.file;
 /// Resolved scenario of the run.
 pub const SCENARIO: &str = "scenario.json";
 /// Summary of the run.
@@ -46,7 +48,7 @@ pub const BRANCH: &str = "branch.json";
 pub const PARTIAL_BRANCH: &str = "branch-partial.json";
 
 /// Tables whose columns are the same in every run. `events.csv` has additional columns: those of the trace.
-pub const TABLES: [Columns; 7] = [
+pub const TABLES: [Columns; 8] = [
     columns::EVENTS,
     columns::SPRINGS,
     columns::MEMORY,
@@ -54,6 +56,7 @@ pub const TABLES: [Columns; 7] = [
     columns::FRICTION,
     columns::CYCLES,
     columns::STEPS,
+    columns::PULSES,
 ];
 
 /// Paths of the tables about the interior of contacts.

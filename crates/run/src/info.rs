@@ -10,7 +10,7 @@ mod piezo;
 mod stepping;
 mod usage;
 
-pub use contacts::{ContactInfo, Loaded, Pressed, contacts, name};
+pub use contacts::{ContactInfo, DampingInfo, Loaded, Pressed, contacts, name};
 pub use expectation::{Events, Expectation, PerPeriod};
 pub use motion::{BodyInfo, Freed, ModeInfo, WaveformInfo, bodies, modes, waveforms};
 pub use piezo::{CommandInfo, CornerInfo, PiezoInfo, piezos};

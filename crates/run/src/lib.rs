@@ -45,6 +45,7 @@ pub mod outlook;
 mod parts;
 pub mod program;
 pub mod provenance;
+mod pulses_table;
 mod record;
 mod replay;
 mod results;

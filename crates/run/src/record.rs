@@ -345,6 +345,11 @@ impl Record for Recorder<'_> {
             Some(number) => self.end_period(number),
             None => {}
         }
+        let pulse = self.marks.pulses.as_mut().and_then(|pulses| pulses.sample(values));
+        let table = self.tables.as_mut().and_then(|tables| tables.pulses.as_mut());
+        if let (Some(pulse), Some(table)) = (pulse, table) {
+            table.write(&pulse);
+        }
     }
 
     fn watched(&self) -> [Option<usize>; 2] {

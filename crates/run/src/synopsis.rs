@@ -2,7 +2,7 @@
 
 use crate::checkpoint;
 use crate::complaint::words;
-use crate::files::{CYCLES, EVENTS, INSIDES, SCENARIO, STEPS, SUMMARY, TRACE};
+use crate::files::{CYCLES, EVENTS, INSIDES, PULSES, SCENARIO, STEPS, SUMMARY, TRACE};
 use crate::folder;
 use crate::guard;
 use crate::seal::{Seal, SealedTable};
@@ -153,7 +153,7 @@ impl Synopsis {
 }
 
 /// Tables that every run may write. Tables about the interior of contacts are not included.
-const SEALED: [&str; 4] = [TRACE, EVENTS, CYCLES, STEPS];
+const SEALED: [&str; 5] = [TRACE, EVENTS, CYCLES, STEPS, PULSES];
 
 /// Returns a description of invalid names or words in a summary. Returns `None` if all names and words are valid.
 fn fault(summary: &Value) -> Option<String> {

@@ -52,12 +52,12 @@ pub(crate) fn of_run(job: &Job, outcome: &Outcome) -> Vec<Warning> {
     if missed > 0 {
         let all = outcome.state.counts().steps;
         let message = format!(
-            "{missed} of {all} time steps exceed their tolerance: damped springs of a contact alternate \
-             between stick and slip, and shorter time steps have no effect"
+            "{missed} of {all} time steps exceed their tolerance: a contact breaks loose where events accumulate, and shorter time \
+             steps have no effect"
         );
         warnings.push(
             Warning::new("error_estimate", message)
-                .help("run the scenario again at another tolerance or with less contact damping, and compare the results"),
+                .help("run the scenario again at another tolerance, and compare the results"),
         );
     }
     warnings.extend(impacts(job, outcome));

@@ -2,7 +2,7 @@
 
 use crate::path::{KeyPath, Step};
 use crate::units::Kind;
-use stickslip_drive::scene::{Axis, Named};
+use stickslip_drive::scene::{Axis, Direction, Named};
 use stickslip_drive::{Accuracy, Field, Part, Plan, Scene, SceneError, Stepper};
 
 /// Returns the key path of a field.
@@ -14,6 +14,14 @@ pub(crate) fn path(scene: &Scene, plan: Plan, part: Part, field: Field) -> KeyPa
         Part::Spring(i) => named("springs", &scene.springs, i),
         Part::Actuator(i) => named("actuators", &scene.actuators, i),
         Part::Load(i) => vec![key("loads"), Step::Index(i)],
+        Part::Stop(i) => {
+            let mut steps = named("stops", &scene.stops, i);
+            if let (Field::End(end), Some(stop)) = (field, scene.stops.get(i)) {
+                let along = if stop.part.direction == Direction::X { "x" } else { "z" };
+                steps.extend([key(along), Step::Index(end)]);
+            }
+            steps
+        }
         // Blocks have no keys in the file.
         Part::Block(_) => Vec::new(),
         Part::Gravity => vec![key("gravity")],
@@ -47,7 +55,7 @@ pub(crate) fn kind(error: &SceneError) -> Option<Kind> {
 /// Returns the keys from a part to its field.
 fn keys(field: Field, stepper: Stepper) -> Vec<&'static str> {
     let keys: &[&str] = match field {
-        Field::Whole => &[],
+        Field::Whole | Field::End(_) => &[],
         Field::Mass => &["mass"],
         Field::Inertia => &["inertia"],
         Field::Coordinate(Axis::X) | Field::Component(Axis::X) => &["x"],
@@ -71,6 +79,9 @@ fn keys(field: Field, stepper: Stepper) -> Vec<&'static str> {
         Field::Start => &["start"],
         Field::StartForce => &["start", "force"],
         Field::StartDisplacement => &["start", "displacement"],
+        Field::NormalDamping => &["damping", "normal"],
+        Field::Restitution => &["damping", "restitution"],
+        Field::StartRest => &["start", "rest"],
         Field::Engine => &["engine"],
         Field::SpringCount => &["engine", "springs", "count"],
         Field::Span => &["engine", "springs", "span"],

@@ -343,7 +343,7 @@ mod tests {
         let homes = |sought: &str, key: &str| guide.homes(&path(sought), key);
         assert_eq!(homes("materials.ruby", "friction"), ["contacts.NAME"]);
         assert_eq!(homes("contacts.ball", "mass"), ["bodies.NAME", "actuators.NAME"]);
-        assert_eq!(homes("run", "on"), ["loads[0]"]);
+        assert_eq!(homes("run", "on"), ["loads[0]", "stops.NAME"]);
         assert_eq!(homes("waveforms.saw", "order"), ["waveforms.saw.harmonics.terms[0]"]);
         assert_eq!(homes("bodies.foot", "follows"), ["bodies.foot.x", "bodies.foot.z", "bodies.foot.pitch"]);
         let profiles = ["cone", "truncated_cone"].map(|kind| format!("contacts.ball.profile.{kind}"));

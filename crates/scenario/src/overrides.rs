@@ -23,7 +23,7 @@ const ALTERNATIVES: &[&[&str]] = &[
     &["window", "last"],
 ];
 /// Sections that map names to parts.
-const NAMED: [&str; 6] = ["materials", "waveforms", "bodies", "contacts", "springs", "actuators"];
+const NAMED: [&str; 7] = ["materials", "waveforms", "bodies", "contacts", "springs", "actuators", "stops"];
 
 /// Sets the value at a path. Returns the errors.
 pub(crate) fn apply(document: &mut Document, path: &str, text: &str) -> Vec<Fault> {

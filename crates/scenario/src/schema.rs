@@ -100,6 +100,14 @@ fn tidy(schema: &mut Schema) {
     transform_subschemas(&mut tidy, schema);
 }
 
+/// Allows null for the items of a list, such as an end of travel without a stop.
+pub(crate) fn items_or_null(schema: &mut Schema) {
+    if let Some(items) = schema.get_mut("items") {
+        // A constant, because types that are null are removed.
+        *items = json!({ "anyOf": [items.take(), { "const": null }] });
+    }
+}
+
 /// Removes null. Optional keys are `Option`s in the types, for which schemars allows null; the reader of scenario files does not.
 fn without_null(schema: &mut Schema) {
     if let Some(Value::Array(types)) = schema.get_mut("type") {

@@ -191,6 +191,8 @@ impl Walk<'_> {
                 }
                 Inner::Leaf
             }
+            // An end without a stop.
+            ast::Value::NullKeyword(_) if is_stop(&self.path.0) => Inner::Leaf,
             ast::Value::NullKeyword(_) => {
                 let fault = Fault::new(self.path.clone(), "null is not a value of a scenario").at_span(span);
                 self.note(fault.help("leave the key out for its default"));
@@ -236,4 +238,9 @@ fn brief(value: &ast::Value<'_>) -> String {
         ast::Value::Array(_) => "a list".to_owned(),
         ast::Value::NullKeyword(_) => "null".to_owned(),
     }
+}
+
+/// Whether a path leads to an end of a stop, such as `stops.travel.x[0]`.
+fn is_stop(path: &[Step]) -> bool {
+    matches!(path, [Step::Key(part), Step::Key(_), Step::Key(_), Step::Index(_)] if part == "stops")
 }

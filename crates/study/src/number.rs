@@ -101,7 +101,9 @@ impl Number {
             },
             Self::Gap(c) => Some(contact(c)?.gap),
             Self::Preload(c) => match contact(c)?.start {
-                ContactStart::Force(value) | ContactStart::Displacement(value) => Some(value),
+                ContactStart::Force(value)
+                | ContactStart::Displacement(value)
+                | ContactStart::Rest(value) => Some(value),
                 ContactStart::Untouched => None,
             },
             Self::SpringStiffness(s) => Some(spring(s)?.stiffness),
@@ -138,7 +140,7 @@ impl Number {
             },
             Self::Gap(c) => scene.contacts[c].part.gap = value,
             Self::Preload(c) => match &mut scene.contacts[c].part.start {
-                ContactStart::Force(v) | ContactStart::Displacement(v) => *v = value,
+                ContactStart::Force(v) | ContactStart::Displacement(v) | ContactStart::Rest(v) => *v = value,
                 ContactStart::Untouched => {}
             },
             Self::SpringStiffness(s) => scene.springs[s].part.stiffness = value,
@@ -219,9 +221,9 @@ fn read(scene: &Scene, path: &str) -> Result<Number, String> {
         ["contacts", name, "start", key] => {
             let c = place(&scene.contacts, name)?;
             match (scene.contacts[c].part.start, key) {
-                (ContactStart::Force(_), "force") | (ContactStart::Displacement(_), "displacement") => {
-                    Number::Preload(c)
-                }
+                (ContactStart::Force(_), "force")
+                | (ContactStart::Displacement(_), "displacement")
+                | (ContactStart::Rest(_), "rest") => Number::Preload(c),
                 _ => return Err("the contact start is given by another key".to_owned()),
             }
         }

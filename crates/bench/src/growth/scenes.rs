@@ -2,7 +2,7 @@
 
 use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Side, Varying,
+    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, NormalDamping, Point, Side, Varying,
 };
 use stickslip_drive::{Scene, Shape, Timing, Waveform, WaveformError};
 
@@ -75,6 +75,7 @@ fn touching(body: usize, radius: f64, force: f64, engine: EngineChoice) -> Resul
             .map_err(|error| error.to_string())?,
         normal: Normal::Force(Varying::Constant(force)),
         gap: 0.0,
+        normal_damping: NormalDamping::None,
         start: ContactStart::Untouched,
         engine,
         count: 1,

@@ -5,6 +5,7 @@
 use super::Curve;
 use super::knot::Knot;
 use super::stack::SlopeRange;
+use crate::breaking::Rest;
 use crate::{Apex, Interface};
 
 /// Relative tolerance at which a slope counts as ±κ, so that the piece was made by slip.
@@ -53,7 +54,8 @@ impl Curve {
     /// Creates the curve of a given form that ends at an apex. Returns `None` if the heights do not ascend from 0 to d.
     #[must_use]
     pub fn standing(&self, law: &Interface, at: Apex, legs: &Legs) -> Option<Self> {
-        let mut curve = Self { knots: Vec::new(), apex: at, range: SlopeRange::NONE, ..*self };
+        let mut curve =
+            Self { knots: Vec::new(), apex: at, range: SlopeRange::NONE, rest: Rest::NONE, ..*self };
         if at.d <= 0.0 {
             return Some(curve);
         }

@@ -4,6 +4,7 @@ use super::front::Front;
 use super::knot::Knot;
 use super::stack::SlopeRange;
 use super::{Curve, Merged};
+use crate::breaking::Rest;
 use crate::words::{Words, push};
 use crate::{Apex, Interface};
 
@@ -14,9 +15,10 @@ impl Curve {
     /// Writes the state of the curve.
     // The capacity belongs to the state, because it determines later merges.
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
-        words.reserve(11 + KNOT * self.knots.len());
+        words.reserve(13 + KNOT * self.knots.len());
         words.push(self.capacity as u64);
         push(words, [self.apex.d, self.apex.u, self.front.sense, self.front.height, self.slides]);
+        self.rest.write(words);
         push(words, [self.range.low, self.range.high]);
         words.push(self.merged.knots);
         push(words, [self.merged.force, self.merged.energy]);
@@ -30,6 +32,7 @@ impl Curve {
         let apex = words.apex()?;
         let front = Front { sense: words.finite()?, height: words.number()? };
         let slides = words.sense()?;
+        let rest = Rest::read(law, words)?;
         let range = SlopeRange { low: words.number()?, high: words.number()? };
         let merged = Merged { knots: words.tally()?, force: words.finite()?, energy: words.finite()? };
         let count = words.count(capacity)?;
@@ -42,6 +45,7 @@ impl Curve {
             apex,
             front,
             slides,
+            rest,
             range,
             capacity,
             merged,

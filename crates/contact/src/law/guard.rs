@@ -92,7 +92,7 @@ impl Guard {
     /// Returns the value of the event function: velocities in m/s, lengths in m; ∞ if the law does not have this function.
     #[inline]
     pub fn value(self, site: &impl Site, (memory, law): (&Memory, &Law), at: &Motion) -> f64 {
-        let slope = site.interface().stick_slope();
+        let slope = memory.law(site.interface()).stick_slope();
         match (self, &law.0) {
             // A row under the full force law needs reversals only; its springs determine stick by themselves.
             (Self::Drag, Form::Whole { sense }) if *sense == 0.0 => f64::INFINITY,

@@ -123,15 +123,23 @@ impl Law {
         }
     }
 
-    /// Returns the damping force of one contact, N; `elastic` is its force without damping. See [`Memory::damping_force`].
-    pub fn damping_force(&self, (site, memory): (&impl Site, &Memory), motion: &Motion, elastic: f64) -> f64 {
-        let since = match &self.0 {
-            Form::Open => return 0.0,
-            Form::Slip(branch) => Since::Slip(branch.sense()),
-            Form::Grow => Since::Growth(elastic),
-            Form::Lull { .. } | Form::Whole { .. } => Since::Chord,
+    /// Returns the force F_x of one contact with damping, and the damping force in it, N; `elastic` is its force without damping. See
+    /// [`Memory::damped`].
+    pub fn damped(&self, (site, memory): (&impl Site, &Memory), motion: &Motion, elastic: f64) -> [f64; 2] {
+        let still = motion.d <= 0.0 || motion.du == 0.0;
+        let (since, known) = match &self.0 {
+            Form::Open => return [elastic, 0.0],
+            _ if still => return [elastic, 0.0],
+            // Beyond its end a law continues smoothly, and its force is not the elastic one.
+            Form::Slip(branch) => {
+                let holds = branch.covers(motion.d, motion.u) && branch.margin(motion.d, motion.u) >= 0.0;
+                (Since::Slip(branch.sense()), holds)
+            }
+            Form::Lull { .. } => (Since::Chord, false),
+            Form::Grow => (Since::Growth(elastic), true),
+            Form::Whole { .. } => (Since::Chord, true),
         };
-        memory.damping_force(site.interface(), since, motion, elastic)
+        memory.damped(site.interface(), since, motion, known.then_some(elastic))
     }
 
     /// Returns the time derivatives of the states of a contact that may grow in full stick.
@@ -174,7 +182,9 @@ fn whole((site, memory): (&impl Site, &Memory), motion: &Motion) -> f64 {
 #[inline(never)]
 fn dragged((site, memory): (&impl Site, &Memory), branch: &Branch, motion: &Motion) -> Dragged {
     let branching = memory.branching();
-    branching.map(|it| it.dragged(site.interface(), branch.sense(), motion.apex())).unwrap_or_default()
+    branching
+        .map(|it| it.dragged(memory.law(site.interface()), branch.sense(), motion.apex()))
+        .unwrap_or_default()
 }
 
 /// Returns the height of the slip front, m. Springs of smaller height stick, others slip.

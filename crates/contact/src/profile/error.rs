@@ -8,6 +8,12 @@ pub enum ProfileError {
     /// The radius is not above 0 or not finite, m.
     #[error("expected a radius above 0 m, got {0}")]
     Radius(f64),
+    /// The mean height or the standard deviation of asperities is not above 0 or not finite, m.
+    #[error("expected a height above 0 m, got {0}")]
+    Scale(f64),
+    /// The number of asperities is out of range.
+    #[error("expected a number of tips between 10 and 1e15, got {0}")]
+    Tips(f64),
     /// The radius of the flat is not above 0 or not finite, m.
     #[error("expected a flat of a radius above 0 m, got {0}")]
     Flat(f64),

@@ -9,6 +9,7 @@
 )]
 
 mod abuse;
+mod asperities;
 mod breaking;
 mod closed_forms;
 mod damping;
@@ -22,6 +23,7 @@ mod profiles;
 mod profiles_bordered;
 mod profiles_rough;
 mod profiles_tables;
+mod restitution;
 mod row;
 mod thinning;
 mod words;

@@ -54,6 +54,9 @@ impl Component for Contact {
     }
 
     fn columns(&self) -> Vec<&'static str> {
+        if self.stop {
+            return vec!["d_m", "fn_N"];
+        }
         vec!["u_m", "d_m", "fx_N", "fn_N", "a_m", "stick_m", "state", "elastic_J", "friction_J"]
     }
 }

@@ -5,7 +5,7 @@
 
 use super::sum::{Sum, View};
 use super::{Equations, Sample};
-use crate::contact::{Motion, Press};
+use crate::contact::{Contact, Motion, Press};
 use crate::model::{Link, Stroke};
 
 impl Equations<'_> {
@@ -31,8 +31,8 @@ impl Equations<'_> {
 
     /// Adds the forces of a contact under any law, and the derivatives of its state components.
     ///
-    /// The normal force is -count·E\*M(d) along d, if bodies press the contact. The tangential force is -count·(F_x + βG\*m u̇) along u,
-    /// where βG\*m u̇ is the damping of sticking springs.
+    /// The normal force is -count·E\*M(d) along d, if bodies press the contact. The tangential force is -count·F_x along u, with the damping
+    /// force ([`Law::damped`](stickslip_contact::Law::damped)).
     #[inline(never)]
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let (contact, law) = (&self.model.contacts[c], &self.modes[c]);
@@ -40,17 +40,23 @@ impl Equations<'_> {
         let (d, dd, reduced_force) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
+                let depth = contact.damped([d.value, d.rate], law);
                 let reduced_force = match law.lull() {
-                    Some(lull) => lull.reduced_force(d.value),
-                    None => contact.interface.reduced_force(d.value),
+                    Some(lull) => lull.reduced_force(depth),
+                    None => contact.interface.reduced_force(depth),
                 };
                 // An open contact exerts no force, even beyond the touch that ends the step.
+                let mut press = 0.0;
                 if !law.is_open() {
                     // M(d) serves both normal force and branch.
-                    let press = contact.count * (contact.interface.normal_modulus() * reduced_force);
+                    press = contact.count * (contact.interface.normal_modulus() * reduced_force);
                     sum.apply(&measure.free, d.driven, -press);
                 }
-                (d.value, d.rate, reduced_force)
+                if contact.normal_damping > 0.0 && !law.is_open() {
+                    // The elastic energy is that at d.
+                    sum.damping += (press - contact.count * contact.interface.normal_force(d.value)) * d.rate;
+                }
+                (depth, d.rate, reduced_force)
             }
             _ => {
                 let (d, dd) = self.pressed(contact, at.time());
@@ -79,12 +85,36 @@ impl Equations<'_> {
             }
         };
         if contact.interface.damping() > 0.0 {
-            let damping = law.damping_force((contact, &self.memories[c]), &motion, force);
-            // Dissipated in sticking springs, separate from friction.
-            sum.damping += contact.count * damping * motion.du;
-            force += damping;
+            // The rate of a damped indentation is unknown here; the mean slope of the path then replaces that at its end.
+            let dd = if contact.normal_damping > 0.0 { 0.0 } else { dd };
+            let motion = Motion { dd, ..motion };
+            let [damped, damping] = law.damped((contact, &self.memories[c]), &motion, force);
+            // Dissipated in sticking springs, separate from friction. Steps of fixed length integrate it along their paths.
+            if self.layout.located {
+                sum.damping += contact.count * damping * motion.du;
+            }
+            force = damped;
         }
         sum.apply(&contact.u.free, u.driven, -contact.count * force);
+    }
+
+    /// Writes the slopes of the additional components of a growing contact with damping along the normal.
+    ///
+    /// The rate of its indentation needs the accelerations `dv`, which the forces give first. `extra` are the slopes after the velocities.
+    pub(super) fn grow_damped(&self, contact: &Contact, at: &impl View, dv: &[f64], extra: &mut [f64]) {
+        let (c, law) = (contact.place, &self.modes[contact.place]);
+        let Some(slot) = contact.slot.filter(|_| self.layout.growing > 0) else { return };
+        let Some(measure) = contact.coupling().filter(|_| !contact.goes_straight(self.pieces)) else {
+            return;
+        };
+        let (d, u) = (self.read(measure, at), self.read(&contact.u, at));
+        let bend = self.acceleration(measure, at, |i| dv[i]);
+        let depth = contact.damped([d.value, d.rate], law);
+        let dd = d.rate + contact.normal_damping * bend;
+        let motion = Motion { d: depth, u: u.value, dd, du: u.rate };
+        let force =
+            law.force((contact, &self.memories[c]), &motion, || at.component(self.layout.force(slot)));
+        self.grow((c, slot), &motion, force, extra);
     }
 
     /// Writes the slopes of the additional components of a growing contact; `extra` begins after the velocities.

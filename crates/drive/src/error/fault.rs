@@ -55,6 +55,25 @@ pub enum SceneFault {
         "a balanced coordinate would jump when a contact with a kinetic coefficient of friction breaks loose"
     )]
     BalancedBreak,
+    /// A body starts beyond the position of a stop, m.
+    #[error("the body starts beyond the stop at {0} m")]
+    InsideStop(f64),
+    /// The lowest position of a stop is not below the highest one.
+    #[error("expected the lowest position of a stop below the highest one, got {low} m and {high} m")]
+    StopOrder {
+        /// Lowest position, m.
+        low: f64,
+        /// Highest position, m.
+        high: f64,
+    },
+    /// A contact under a prescribed normal force or contact radius is damped along the normal.
+    #[error("a contact under a prescribed normal force or contact radius has no damping along the normal")]
+    UndampedLoad,
+    /// A coefficient of restitution is out of (0, 1], or no free body moves along the normal.
+    #[error(
+        "expected a coefficient of restitution above 0 and at most 1, and a free body along the normal, got {0}"
+    )]
+    Restitution(f64),
     /// Two quasi-static ("balanced") coordinates with contacts act on each other.
     #[error("two balanced bodies with contacts act on each other")]
     BalancedTogether,
@@ -188,6 +207,9 @@ impl SceneFault {
             | Self::BalancedTogether
             | Self::Unbalanceable(_)
             | Self::Unbalanced { .. } => self.advice_on_balance(),
+            Self::InsideStop(_) | Self::StopOrder { .. } | Self::UndampedLoad | Self::Restitution(_) => {
+                self.advice_on_impacts()
+            }
             Self::Unmoved => {
                 "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
             }
@@ -224,6 +246,16 @@ impl SceneFault {
             | Self::Loading(_) => return None,
         };
         Some(advice.to_owned())
+    }
+
+    /// Returns a text that suggests a remedy for a fault of a stop or of the damping along a normal.
+    fn advice_on_impacts(&self) -> &'static str {
+        match self {
+            Self::InsideStop(_) => "move the stop, or let the body start between the stops",
+            Self::StopOrder { .. } => "the first position is the lowest one; null means no stop",
+            Self::UndampedLoad => "remove the damping along the normal, or make \"normal\" \"coupled\"",
+            _ => "1 is an impact without loss; give the damping time \"normal\" if a waveform moves the body",
+        }
     }
 
     /// Returns a text that suggests a remedy for a fault of a quasi-static coordinate.

@@ -30,6 +30,8 @@ pub enum Part {
     Actuator(usize),
     /// Load by index.
     Load(usize),
+    /// Stop by index.
+    Stop(usize),
     /// Block by index.
     Block(usize),
     /// Gravity.
@@ -71,12 +73,20 @@ pub enum Field {
     Friction,
     /// Damping of a contact, spring or actuator.
     Damping,
+    /// Lowest (0) or highest (1) free position of a stop.
+    End(usize),
+    /// Damping of a contact along the normal.
+    NormalDamping,
+    /// Coefficient of restitution of a contact.
+    Restitution,
     /// Initial state of a contact, or of the free coordinates.
     Start,
     /// Initial tangential force of a contact.
     StartForce,
     /// Initial displacement of a contact.
     StartDisplacement,
+    /// Time at rest before the start.
+    StartRest,
     /// Solution of the tangential problem of a contact: memory curve or row of springs.
     Engine,
     /// Number of springs of a row.
@@ -125,6 +135,7 @@ impl fmt::Display for Part {
             Self::Spring(i) => write!(f, "spring {i}"),
             Self::Actuator(i) => write!(f, "actuator {i}"),
             Self::Load(i) => write!(f, "load {i}"),
+            Self::Stop(i) => write!(f, "stop {i}"),
             Self::Block(i) => write!(f, "block {i}"),
             Self::Gravity => f.write_str("gravity"),
             Self::Run => f.write_str("run"),
@@ -153,6 +164,11 @@ impl fmt::Display for Field {
             Self::Start => "start",
             Self::StartForce => "initial tangential force",
             Self::StartDisplacement => "initial displacement",
+            Self::End(0) => "lowest position",
+            Self::End(_) => "highest position",
+            Self::NormalDamping => "normal damping",
+            Self::Restitution => "restitution",
+            Self::StartRest => "initial time at rest",
             Self::Engine => "engine",
             Self::SpringCount => "number of springs",
             Self::Span => "length of the row",

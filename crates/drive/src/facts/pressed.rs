@@ -59,7 +59,10 @@ impl Pressed {
             indentation: d,
             radius: law.profile().radius(d),
             peak_pressure: law.peak_pressure(d),
-            gross_slip: law.gross_slip_displacement(d),
+            gross_slip: law
+                .profile()
+                .endless_scale()
+                .map_or(law.gross_slip_displacement(d), |_| f64::INFINITY),
             zero_step_stroke: zero_step_stroke(law, d, 0.0).unwrap_or(0.0),
             loaded: steady_load(setup.scene, c).filter(|_| limit > 0.0).map(|force| {
                 let share = force.abs() / limit;

@@ -97,7 +97,10 @@ impl Model {
             if let Some(normal) = contact.coupling() {
                 let (place, row) = division.row(&normal.free);
                 let stiffness = contact.count * contact.interface.normal_stiffness(d);
-                parts.get_mut(place).into_iter().for_each(|part| add(&mut part.stiffness, &row, stiffness));
+                if let Some(part) = parts.get_mut(place) {
+                    add(&mut part.stiffness, &row, stiffness);
+                    add(&mut part.damping, &row, contact.normal_damping * stiffness);
+                }
             }
         }
         parts

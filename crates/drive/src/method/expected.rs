@@ -97,9 +97,6 @@ impl Model {
             let (method, why) = stepping(&scene);
             expected.add((method, if expected.takes(Method::Swing) { Why::AtRest } else { why }));
         }
-        if !self.free.is_empty() && self.contacts.iter().any(|contact| contact.interface.damping() > 0.0) {
-            expected.add((Method::Whole, Why::Turns));
-        }
         let tolerance = match self.effective(stepper).accuracy() {
             Accuracy::Tolerance(tolerance) => tolerance,
             Accuracy::Step(_) | Accuracy::Frame { .. } => 0.0,

@@ -21,8 +21,6 @@ pub enum Why {
     Damper,
     /// The damping force of sticking springs depends on a velocity.
     ContactDamping,
-    /// Damped contact springs may stick and slip alternately, so that events accumulate.
-    Turns,
     /// The power of a varying load depends on a velocity.
     VaryingLoad,
     /// The force of a contact that grows in full stick depends on the path of the contact.
@@ -90,7 +88,6 @@ impl fmt::Display for Why {
             Self::VaryingIndentation => "the indentation varies",
             Self::NoFriction => "no friction",
             Self::BetweenSprings => "the forces of a row are linear until one of its springs changes state",
-            Self::Turns => "damped springs may stick and slip alternately",
             Self::WholeLaw => "the memory is evaluated at every stage",
         })
     }

@@ -246,7 +246,9 @@ pub(super) fn check_dampers(
     for (i, contact) in contacts.iter().enumerate() {
         let moved =
             is_balanced(&contact.u, first) || contact.coupling().is_some_and(|d| is_balanced(d, first));
-        if contact.interface.damping() > 0.0 && moved {
+        let presses =
+            contact.coupling().is_some_and(|d| is_balanced(d, first)) && contact.normal_damping > 0.0;
+        if contact.interface.damping() > 0.0 && moved || presses {
             return Err(SceneFault::BalancedDamper.of(Part::Contact(i), Field::Damping));
         }
         if contact.interface.kinetic().is_some() && is_balanced(&contact.u, first) {

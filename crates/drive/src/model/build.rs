@@ -66,6 +66,11 @@ impl Model {
         for link in &self.links {
             link.elongation.free.iter().for_each(|(i, _)| self.free[*i].travels = false);
         }
+        // Stops depend on the position itself.
+        for stop in self.contacts.iter().filter(|contact| contact.stop) {
+            let lengths = stop.coupling().into_iter().flat_map(|d| &d.free);
+            lengths.for_each(|(i, _)| self.free[*i].travels = false);
+        }
         used::hold_the_others(self, &mut room.used);
         let Scaffold { deepest, pushes, scales, .. } = room;
         scales.find_forces(scene);
@@ -115,6 +120,15 @@ impl Model {
             }
             contacts.push(contact);
             room.deepest.push(deepest);
+        }
+        for (place, named) in scene.stops.iter().enumerate() {
+            for end in 0..2 {
+                let index = contacts.len();
+                if let Some((contact, deepest)) = contact::stop((place, named), end, (index, &around))? {
+                    contacts.push(contact);
+                    room.deepest.push(deepest);
+                }
+            }
         }
         room.pushes.extend((0..self.free.len()).map(|i| reach::pressing(i, &around)));
         (self.contacts, self.growing) = (contacts, growing);

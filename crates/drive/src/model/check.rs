@@ -2,7 +2,9 @@
 //!
 //! The crate `stickslip_contact` checks the physics of a single contact. Model construction checks conditions that involve several parts.
 
-use crate::scene::{Axis, Contact, ContactStart, Freedom, Normal, Point, Scene, Side, Varying};
+use crate::scene::{
+    Axis, Contact, ContactStart, Freedom, Named, Normal, NormalDamping, Point, Scene, Side, Varying,
+};
 use crate::{Field, Part, SceneError, SceneFault};
 
 /// Checks all numbers and references of a [`Scene`].
@@ -24,6 +26,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), SceneError> {
     scene.contacts.iter().enumerate().try_for_each(|(i, contact)| check.contact(i, &contact.part))?;
     check.links()?;
     check.loads()?;
+    check.stops()?;
     let of = |field: Field| move |fault: SceneFault| fault.of(Part::Gravity, field);
     finite(scene.gravity.acceleration).map_err(of(Field::Acceleration))?;
     finite(scene.gravity.incline).map_err(of(Field::Incline))
@@ -39,6 +42,9 @@ impl Check<'_> {
         points(part.at).map_err(of(Field::Points))?;
         finite(part.gap).map_err(of(Field::Gap))?;
         at_least_zero(part.interface.damping()).map_err(of(Field::Damping))?;
+        if let NormalDamping::Time(time) = part.normal_damping {
+            at_least_zero(time).map_err(of(Field::NormalDamping))?;
+        }
         match part.normal {
             Normal::Force(v) => self.varying(v).map_err(of(Field::NormalForce))?,
             Normal::Indentation(v) => self.varying(v).map_err(of(Field::NormalIndentation))?,
@@ -48,6 +54,7 @@ impl Check<'_> {
         match part.start {
             ContactStart::Untouched => {}
             ContactStart::Force(force) => finite(force).map_err(of(Field::StartForce))?,
+            ContactStart::Rest(time) => at_least_zero(time).map_err(of(Field::StartRest))?,
             ContactStart::Displacement(u) => finite(u).map_err(of(Field::StartDisplacement))?,
         }
         if part.count == 0 {
@@ -77,6 +84,24 @@ impl Check<'_> {
                 Varying::Follows(signal) => self.signal(signal),
             }
             .map_err(of(Field::Stroke))?;
+        }
+        Ok(())
+    }
+
+    fn stops(&self) -> Result<(), SceneError> {
+        for (i, Named { part, .. }) in self.0.stops.iter().enumerate() {
+            let of = |field: Field| move |fault: SceneFault| fault.of(Part::Stop(i), field);
+            self.body(part.on).map_err(of(Field::On))?;
+            above_zero(part.stiffness).map_err(of(Field::Stiffness))?;
+            at_least_zero(part.damping).map_err(of(Field::Damping))?;
+            for (end, position) in part.ends.into_iter().enumerate() {
+                position.map_or(Ok(()), finite).map_err(of(Field::End(end)))?;
+            }
+            if let [Some(low), Some(high)] = part.ends
+                && low >= high
+            {
+                return Err(of(Field::End(1))(SceneFault::StopOrder { low, high }));
+            }
         }
         Ok(())
     }

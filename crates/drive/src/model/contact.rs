@@ -7,11 +7,14 @@
 use super::reach::{self, Pile};
 use super::{Body, Free, Link, Load, Measure, Signals};
 use crate::contact::{Contact, Natural, Press};
-use crate::scene::{self, ContactStart, Direction, EngineChoice, Named, Normal, Varying};
+use crate::scene::{
+    self, ContactStart, Direction, EngineChoice, Named, Normal, NormalDamping, Point, Side, Stop, Varying,
+};
 use crate::{Field, Part, SceneError, SceneFault};
 use std::sync::Arc;
 use stickslip_contact::{
-    Engine, FirstLoading, FirstLoadingError, Interface, NormalGiven, Springs, SpringsError, TangentialGiven,
+    Engine, FirstLoading, FirstLoadingError, Interface, NormalGiven, Pair, Profile, Springs, SpringsError,
+    TangentialGiven,
 };
 
 /// Other parts of the model, for the construction of a contact.
@@ -54,40 +57,93 @@ pub(super) fn build(
     part: &scene::Contact,
     around: &Surroundings<'_>,
 ) -> Result<(Contact, f64), SceneError> {
-    let refused = |(field, fault): Refused| fault.of(Part::Contact(place), field);
+    along(place, part, Direction::Z, around).map_err(|(field, fault)| fault.of(Part::Contact(place), field))
+}
+
+/// Returns a stop as a contact without friction along its axis, with the force k(p + cṗ/k): a flat punch of the stiffness k with damping
+/// along the normal. `end` is 0 for the lowest and 1 for the highest position. Also returns the largest penetration.
+pub(super) fn stop(
+    (place, named): (usize, &Named<Stop>),
+    end: usize,
+    (index, around): (usize, &Surroundings<'_>),
+) -> Result<Option<(Contact, f64)>, SceneError> {
+    let part = &named.part;
+    let Some(position) = part.ends[end] else { return Ok(None) };
+    let refused = |fault: SceneFault| fault.of(Part::Stop(place), Field::End(end));
+    // The stiffness of a flat punch is 2aE*, here with a = 0.5 m.
+    let pair = Pair::from_moduli(part.stiffness, part.stiffness);
+    let law =
+        pair.ok().zip(Profile::flat(0.5).ok()).map(|(pair, profile)| Interface::new(pair, profile, 0.0));
+    let Some(Ok(interface)) = law else { return Err(refused(SceneFault::NotFinite(part.stiffness))) };
+    let body = Side::Body(part.on);
+    let (between, gap) =
+        if end == 0 { ([Side::Ground, body], -position) } else { ([body, Side::Ground], position) };
+    let contact = scene::Contact {
+        between,
+        at: [Point::default(); 2],
+        interface,
+        normal: Normal::Coupled,
+        gap,
+        normal_damping: NormalDamping::Time(part.damping / part.stiffness),
+        start: ContactStart::Untouched,
+        engine: EngineChoice::Curve,
+        count: 1,
+    };
+    let (mut contact, deepest) =
+        along(index, &contact, part.direction, around).map_err(|(_, fault)| refused(fault))?;
+    if contact.coupling().is_some_and(|d| around.at_start(d) > 0.0) {
+        return Err(refused(SceneFault::InsideStop(position)));
+    }
+    contact.stop = true;
+    contact.name = format!("{}_{}", named.name, ["low", "high"][end]);
+    Ok(Some((contact, deepest)))
+}
+
+/// Returns the constants of a contact whose normal is along an axis, and its largest indentation.
+fn along(
+    place: usize,
+    part: &scene::Contact,
+    axis: Direction,
+    around: &Surroundings<'_>,
+) -> Result<(Contact, f64), Refused> {
     let [first, second] = part.between;
     let mut law = part.interface.clone();
-    let (mut pressed, mut known) = press(part, &law, around).map_err(refused)?;
-    let mut u = Measure::between([(first, part.at[0]), (second, part.at[1])], Direction::X, around.bodies);
+    let (mut pressed, mut known) = press(part, &law, (axis, around))?;
+    let across = if axis == Direction::Z { Direction::X } else { Direction::Z };
+    let mut u = Measure::between([(first, part.at[0]), (second, part.at[1])], across, around.bodies);
     if around.is_rounding(&law, f64::from(part.count.max(1)), (&u, known.deepest)) {
         law = law.frictionless();
     }
     let inert = law.friction() == 0.0 || known.deepest <= 0.0;
-    let engine = engine(part, &pressed, known, around).map_err(refused)?;
+    let engine = engine(part, &pressed, known, around)?;
     if let Engine::Row(springs) = &engine {
         // The row's own normal force applies; natural scales remain those of the profile.
         law = law.on_springs(Arc::clone(springs));
-        let (again, first) = press(part, &law, around).map_err(refused)?;
+        let (again, first) = press(part, &law, (axis, around))?;
         (pressed, known) = (again, Pressed { deepest: known.deepest, ..first });
     }
-    let start = start(part, &law, known).map_err(refused)?;
+    let start = start(part, &law, known)?;
     u.constant -= around.at_start(&u) - start;
     let balanced = around.is_balanced(&u) || matches!(&pressed, Press::Coupled(d) if around.is_balanced(d));
-    let contact = Contact {
+    let mut contact = Contact {
         name: String::new(),
         place,
         u,
         interface: law,
         engine,
         press: pressed,
+        normal_damping: 0.0,
+        stop: false,
         count: f64::from(part.count.max(1)),
         start,
+        rest: if let ContactStart::Rest(time) = part.start { time } else { 0.0 },
         inert,
         unguarded: known.deepest <= 0.0 || inert && part.normal != Normal::Coupled,
         balanced,
         slot: None,
         natural: Natural::default(),
     };
+    contact.normal_damping = around.normal_damping(part, &contact)?;
     Ok((contact, known.deepest))
 }
 
@@ -114,12 +170,31 @@ impl Surroundings<'_> {
         count * law.friction() * law.normal_force(deepest) < UNRESOLVED * force
     }
 
+    /// Returns the damping time of a contact along the normal, s.
+    ///
+    /// Fails if the coefficient of restitution or its speed is out of range, or if the normal load is a force or a radius.
+    fn normal_damping(&self, part: &scene::Contact, contact: &Contact) -> Result<f64, Refused> {
+        let moved = matches!(part.normal, Normal::Coupled | Normal::Indentation(_));
+        match part.normal_damping {
+            NormalDamping::None => Ok(0.0),
+            _ if !moved => Err((Field::NormalDamping, SceneFault::UndampedLoad)),
+            NormalDamping::Time(time) => Ok(time),
+            NormalDamping::Restitution { coefficient, speed } => {
+                let free = |d: &Measure| d.mobility(|i| self.free[i].mobility);
+                let mobility = contact.coupling().map_or(0.0, free);
+                let impact = (1.0 / (mobility * contact.count), speed);
+                let time = contact.interface.damping_of_restitution(impact, coefficient);
+                time.ok_or((Field::Restitution, SceneFault::Restitution(coefficient)))
+            }
+        }
+    }
+
     /// Returns interface, count and indentation of all coupled contacts of the model.
     fn pressed(&self) -> impl Iterator<Item = (&Interface, f64, Measure)> {
         let coupled = self.contacts.iter().map(|named| &named.part);
-        coupled
-            .filter(|part| part.normal == Normal::Coupled)
-            .map(|part| (&part.interface, f64::from(part.count.max(1)), indentation(part, self.bodies)))
+        coupled.filter(|part| part.normal == Normal::Coupled).map(|part| {
+            (&part.interface, f64::from(part.count.max(1)), indentation(part, Direction::Z, self.bodies))
+        })
     }
 
     /// Returns the value of a linear form at t = 0.
@@ -199,7 +274,7 @@ fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, 
         return Err((Field::Start, SceneFault::Open));
     }
     match part.start {
-        ContactStart::Untouched => Ok(0.0),
+        ContactStart::Untouched | ContactStart::Rest(_) => Ok(0.0),
         ContactStart::Displacement(u) => Ok(u),
         ContactStart::Force(force) => {
             let limit = law.friction() * known.force;
@@ -222,13 +297,13 @@ fn start(part: &scene::Contact, law: &Interface, known: Pressed) -> Result<f64, 
 fn press(
     part: &scene::Contact,
     law: &Interface,
-    around: &Surroundings<'_>,
+    (axis, around): (Direction, &Surroundings<'_>),
 ) -> Result<(Press, Pressed), Refused> {
     let (field, value, given): (_, _, fn(f64) -> NormalGiven) = match part.normal {
         Normal::Force(v) => (Field::NormalForce, v, NormalGiven::Force),
         Normal::Indentation(v) => (Field::NormalIndentation, v, NormalGiven::Indentation),
         Normal::Radius(v) => (Field::NormalRadius, v, NormalGiven::Radius),
-        Normal::Coupled => return coupled(part, law, around),
+        Normal::Coupled => return coupled(part, law, (axis, around)),
     };
     let depth = |value: f64| match given(value) {
         NormalGiven::Force(force) => law.indentation(force),
@@ -257,9 +332,9 @@ fn press(
 }
 
 /// Returns the indentation d of a coupled contact as a linear form of the coordinates.
-fn indentation(part: &scene::Contact, bodies: &[Body]) -> Measure {
+fn indentation(part: &scene::Contact, axis: Direction, bodies: &[Body]) -> Measure {
     let ends = [(part.between[0], part.at[0]), (part.between[1], part.at[1])];
-    let mut d = Measure::between(ends, Direction::Z, bodies);
+    let mut d = Measure::between(ends, axis, bodies);
     d.constant -= part.gap;
     d
 }
@@ -270,9 +345,9 @@ fn indentation(part: &scene::Contact, bodies: &[Body]) -> Measure {
 fn coupled(
     part: &scene::Contact,
     law: &Interface,
-    around: &Surroundings<'_>,
+    (axis, around): (Direction, &Surroundings<'_>),
 ) -> Result<(Press, Pressed), Refused> {
-    let d = indentation(part, around.bodies);
+    let d = indentation(part, axis, around.bodies);
     // A constant indentation must be given as such.
     if d.is_constant() {
         return Err((Field::Normal, SceneFault::Unmoved));

@@ -138,7 +138,7 @@ fn settled(law: &Interface, count: f64, d: &Measure, around: &Surroundings<'_>) 
 /// Returns, for each free coordinate, the z coordinates of other bodies that coupled contacts connect with its body; empty without coupled
 /// contacts.
 pub(super) fn piled(scene: &Scene, free: &[Free]) -> Vec<Vec<usize>> {
-    if scene.contacts.iter().all(|named| named.part.normal != Normal::Coupled) {
+    if scene.contacts.iter().all(|named| named.part.normal != Normal::Coupled) && scene.stops.is_empty() {
         return Vec::new();
     }
     let mut pile: Vec<usize> = (0..scene.bodies.len()).collect();

@@ -85,7 +85,7 @@ pub(super) fn assign(
         let normal = c.coupling().map_or(&[][..], |measure| &measure.free[..]);
         let moved = c.u.free.iter().chain(normal);
         let fastest = moved.map(|(i, _)| frequency[*i]).fold(0.0, f64::max);
-        let displacement = c.interface.gross_slip_displacement(d);
+        let displacement = c.interface.natural_displacement(d);
         let [along, normal] = [driven(&c.u, waveforms), c.coupling().map_or(0.0, |d| driven(d, waveforms))];
         let is_small = c.is_walked() && along > 0.0 && along < displacement;
         let force = c.interface.normal_force(d.max(0.0));
@@ -97,7 +97,14 @@ pub(super) fn assign(
             input: c.count
                 * [limit * along, force * normal].into_iter().filter(|work| work.is_finite()).sum::<f64>(),
             force: limit,
-            frequency: if fastest > 0.0 { fastest } else { slow },
+            frequency: match c.coupling() {
+                Some(d) if c.stop => {
+                    let mobility = d.mobility(|i| free[i].mobility);
+                    (c.interface.normal_stiffness(c.natural.depth.max(1.0)) * mobility).sqrt()
+                }
+                _ if fastest > 0.0 => fastest,
+                _ => slow,
+            },
         };
     }
 }
@@ -126,9 +133,10 @@ fn find_springs(
     };
     for (c, &d) in contacts.iter().zip(deepest) {
         for term in &c.u.free {
-            add(*term, c.count * c.interface.stick_stiffness(d), c.interface.gross_slip_displacement(d));
+            add(*term, c.count * c.interface.stick_stiffness(d), c.interface.natural_displacement(d));
         }
-        for term in c.coupling().iter().flat_map(|measure| &measure.free) {
+        // A stop is seldom met and has a scale of its own.
+        for term in c.coupling().iter().filter(|_| !c.stop).flat_map(|measure| &measure.free) {
             add(*term, c.count * c.interface.normal_stiffness(d), d);
         }
     }

@@ -8,6 +8,7 @@
 
 mod branches;
 mod corners;
+mod damping;
 mod noticed;
 mod step;
 mod way;
@@ -242,6 +243,9 @@ impl<'a> Chords<'a> {
         self.ledger.tell(record);
         state.y.copy_from_slice(y);
         state.t = t;
+        for (memory, contact) in state.memories.iter_mut().zip(&self.model.contacts) {
+            memory.grow(&contact.interface, t);
+        }
         self.branch(state);
         if !self.model.blocks.is_empty() {
             self.ledger.commit_blocks((self.model, self.layout), state)?;
@@ -288,7 +292,7 @@ impl<'a> Chords<'a> {
                 memory.commit(&contact.interface, Segment::Straight(apex)).map(|_| memory)
             });
             let memories: Result<Vec<_>, _> = memories.collect();
-            self.output.looks.show(memories.as_deref().ok(), record);
+            self.output.looks.show(self.model, memories.as_deref().ok(), record);
         }
     }
 }

@@ -231,6 +231,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         }
         let whole = if end >= aim - slack { 1.0 } else { 0.0 };
         self.grid.count += whole;
+        self.y[self.chords.layout.damping()] += self.chords.damping_work(state, (end, &self.y));
         if self.chords.accept(state, (end, &self.y), record)? {
             // The run ended inside this step; the next step is the rest of it.
             self.stepper.restart();

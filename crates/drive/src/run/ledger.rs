@@ -77,7 +77,9 @@ impl Ledger {
     /// Stores a path that the slip memory of contact `c` has committed, to pass it to the record.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, state: &State, c: usize, path: Segment) {
-        if let Some(told) = &mut self.told {
+        if let Some(told) = &mut self.told
+            && !model.contacts[c].stop
+        {
             told.push((c, path.shifted(state.shift(&model.contacts[c]))));
         }
     }

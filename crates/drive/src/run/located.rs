@@ -96,8 +96,10 @@ pub(super) struct Located<'a, A> {
     detour: Option<Detour>,
     last_detour: Detour,
     halves: Option<Box<Halves>>,
-    /// Whether any contact has contact damping, so that the law jumps between stick and slip.
-    slides: bool,
+    /// Whether any contact has two friction coefficients, so that its force jumps where it breaks loose.
+    jumps: bool,
+    /// Whether any contact has damping along the normal, so that its indentation jumps where it touches.
+    presses: bool,
     motion: Motion<A>,
     control: StepControl,
     watch: Watch,
@@ -154,7 +156,8 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             detour: None,
             last_detour: Detour::NONE,
             halves: None,
-            slides: model.contacts.iter().any(|contact| contact.interface.damping() > 0.0),
+            jumps: model.contacts.iter().any(|contact| contact.interface.kinetic().is_some()),
+            presses: model.contacts.iter().any(|contact| contact.normal_damping > 0.0),
             motion,
             control: StepControl::new(order, limits),
             watch: room.watch.renewed(model, setting.tolerance),
@@ -269,6 +272,10 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.horizon.steps.begin(state);
         if laws == Laws::Chosen {
             state.choose_block_laws(self.setting.model, self.setting.layout);
+            self.grow_limits(state, false);
+            if self.presses {
+                self.press_damped(state);
+            }
             for c in 0..self.setting.model.contacts.len() {
                 self.decide(state, c);
             }
@@ -307,6 +314,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
             self.turned(state);
         }
         self.handle_fallen(state, is_corner, record)?;
+        self.grow_limits(state, true);
         if is_corner && self.output.turns.watches() {
             self.tell_corner_turns(state, record);
         }
@@ -353,7 +361,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
 
     /// Updates the next corner and the power of prescribed motions after waveforms have changed their pieces.
     fn turned(&mut self, state: &State) {
-        self.horizon.corner = state.next_corner();
+        self.horizon.corner = self.next_corner(state);
         self.motion.allowance.allowed.power = allowance::follower_power(self.setting.model, state);
     }
 }

@@ -245,7 +245,8 @@ impl Looks {
             looks.ask(record);
         }
         if looks.due == state.t {
-            record.look(state.t, &state.shifted_back(model));
+            let contacts = model.contacts().count();
+            record.look(state.t, &state.shifted_back(model)[..contacts]);
             looks.ask(record);
         }
         looks
@@ -260,9 +261,10 @@ impl Looks {
     /// Passes the slip memories at the time of the snapshot to the record and requests the next one.
     ///
     /// Without memories the snapshot is omitted, because a contact could not follow its path to that time.
-    pub(super) fn show(&mut self, memories: Option<&[Memory]>, record: &mut dyn Record) {
+    pub(super) fn show(&mut self, model: &Model, memories: Option<&[Memory]>, record: &mut dyn Record) {
         if let Some(memories) = memories {
-            record.look(self.due, memories);
+            // Stops have no slip memory to look at.
+            record.look(self.due, &memories[..model.contacts().count()]);
         }
         self.ask(record);
     }

@@ -11,7 +11,11 @@ pub(super) fn stored(eq: &Equations<'_>, state: &State) -> f64 {
     let energy = |(contact, memory): (&Contact, &Memory)| {
         let apex = memory.apex();
         // The work of a prescribed load equals its stored energy, which follows from the current indentation.
-        let normal = contact.coupling().map_or(0.0, |_| contact.interface.normal_energy(apex.d));
+        let normal = match contact.coupling() {
+            Some(_) if contact.normal_damping > 0.0 => eq.normal_energy(contact, state.t, |i| state.y[i]),
+            Some(_) => contact.interface.normal_energy(apex.d),
+            None => 0.0,
+        };
         contact.count * (normal + memory.preview(&contact.interface, apex).elastic)
     };
     let contacts = eq.model.contacts.iter().zip(&state.memories).map(energy);

@@ -17,6 +17,8 @@ pub struct Contact {
     pub normal: Normal,
     /// Gap between the bodies in the reference position, m; negative if they overlap. Used for [`Normal::Coupled`] only.
     pub gap: f64,
+    /// Damping along the normal.
+    pub normal_damping: NormalDamping,
     /// Initial state of the contact.
     pub start: ContactStart,
     /// Solution of the tangential problem.
@@ -38,6 +40,27 @@ pub enum Normal {
     Coupled,
 }
 
+/// Damping of a contact along the normal: the contact is that of the elastic one pressed by d + βḋ.
+///
+/// Force, radius, friction limit and slip memory follow d + βḋ, and there is no tension. A prescribed normal force is not damped.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum NormalDamping {
+    /// No damping.
+    #[default]
+    None,
+    /// Damping time β, s, at least 0.
+    Time(f64),
+    /// Damping time of an impact of the two bodies at a speed (m/s) with a coefficient of restitution in (0, 1].
+    ///
+    /// The impact has the effective mass of the bodies along the normal, divided by the number of contacts, and no other force.
+    Restitution {
+        /// Coefficient of restitution: speed after the impact divided by the speed before.
+        coefficient: f64,
+        /// Speed before the impact, m/s.
+        speed: f64,
+    },
+}
+
 /// Initial state of a contact, reached by monotonic tangential loading of the untouched contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ContactStart {
@@ -48,6 +71,8 @@ pub enum ContactStart {
     Force(f64),
     /// Tangential displacement of the contact after loading, m.
     Displacement(f64),
+    /// Springs unstretched after a rest of this time, s.
+    Rest(f64),
 }
 
 /// Solution of the tangential problem of a contact.

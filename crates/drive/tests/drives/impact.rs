@@ -4,7 +4,8 @@ use crate::lottery::Draw;
 use crate::parts::{column, end, event, fitted_order, named, plan, trace};
 use stickslip_contact::{Interface, Pair, Profile};
 use stickslip_drive::scene::{
-    Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Gravity, Normal, Point, Scene, Side,
+    Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Gravity, Normal, NormalDamping,
+    Point, Scene, Side,
 };
 use stickslip_drive::{EventKind, Model, State, Stepper};
 
@@ -36,6 +37,7 @@ fn ball(ratio: f64, psi: f64) -> Scene {
         .unwrap(),
         normal: Normal::Coupled,
         gap: 0.0,
+        normal_damping: NormalDamping::None,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,
@@ -127,6 +129,98 @@ fn normal_impact_by_hertz() {
     assert!((lift / contact_time() - 1.0).abs() < 1e-9, "{lift} instead of {}", contact_time());
     let speed = state.coordinate(&model, 0, Axis::Z).unwrap().1;
     assert!((speed / SPEED - 1.0).abs() < 1e-11, "{speed}");
+}
+
+/// Integrates m z̈ = -F_N(d + βḋ) from a touch at the speed v with 2 000 000 steps of Runge and Kutta up to d + βḋ = 0; returns e.
+fn own_restitution(law: &Interface, (mass, speed, beta): (f64, f64, f64), until: f64) -> f64 {
+    let pull = |[d, v]: [f64; 2]| [v, -law.normal_force(d + beta * v) / mass];
+    let add = |a: [f64; 2], h: f64, b: [f64; 2]| [a[0] + h * b[0], a[1] + h * b[1]];
+    let (mut y, h) = ([0.0, speed], until / 2e6);
+    loop {
+        let k1 = pull(y);
+        let k2 = pull(add(y, 0.5 * h, k1));
+        let k3 = pull(add(y, 0.5 * h, k2));
+        let k4 = pull(add(y, h, k3));
+        let mean = [0, 1].map(|i| (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]) / 6.0);
+        y = add(y, h, mean);
+        if y[1] < 0.0 && y[0] + beta * y[1] <= 0.0 {
+            return -y[1] / speed;
+        }
+    }
+}
+
+/// Four profiles, restitution 0.5 to 0.9: the rebound of the run, the own integration, and the coefficient asked for.
+#[test]
+fn a_damped_impact_rebounds_with_the_restitution_asked_for() {
+    let profiles =
+        [Profile::paraboloid(RADIUS), Profile::cone(0.05), Profile::flat(1e-4), Profile::power(1e4, 3.0)];
+    for profile in profiles {
+        let profile = profile.unwrap();
+        for coefficient in [0.5, 0.7, 0.9, 1.0] {
+            let mut scene = ball(like(0.3), 0.0);
+            let contact = &mut scene.contacts[0].part;
+            *contact = crate::parts::of_profile(profile.clone(), contact);
+            contact.normal_damping = NormalDamping::Restitution { coefficient, speed: SPEED };
+            let law = contact.interface.clone();
+            let beta = law.damping_of_restitution((MASS, SPEED), coefficient).unwrap();
+            let (model, state, trace) = trace(&scene, &event(1e-12, 1e-2), 1e-3);
+            let found = state.coordinate(&model, 0, Axis::Z).unwrap().1 / SPEED;
+            let lift = trace.events().find(|(event, _)| event.kind == EventKind::LiftOff).unwrap().0.t;
+            let own = own_restitution(&law, (MASS, SPEED, beta), lift);
+            println!("{coefficient}: {found} {own}");
+            assert!((found - own).abs() < 1e-9, "{coefficient}: {found} {own}");
+            assert!((found - coefficient).abs() < 1e-6, "{found} {coefficient}");
+            let energies = column(&model, &trace, "energy.error_J");
+            let worst = energies.iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+            assert!(worst < 1e-9 * 0.5 * MASS * SPEED * SPEED, "{worst:e}");
+        }
+    }
+}
+
+/// Oblique impacts with damping along the normal and of the springs: both engines, located events and fixed steps.
+#[test]
+fn an_oblique_damped_impact_is_that_of_rows_and_of_fixed_steps() {
+    for (psi, tangential) in [(1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (1.5, 5e-6)] {
+        let mut scene = ball(like(0.3), psi);
+        let part = &mut scene.contacts[0].part;
+        part.normal_damping = NormalDamping::Restitution { coefficient: 0.7, speed: SPEED };
+        *part = crate::parts::damped(part, tangential);
+        let span = 2.0 * contact_time();
+        let [exact, coarse, fine, row] = [
+            (&scene, event(1e-10, span)),
+            (&scene, plan(Stepper::Rk4 { step: contact_time() / 4e3 }, span)),
+            (&scene, plan(Stepper::Rk4 { step: contact_time() / 1.6e4 }, span)),
+            (&crate::lottery::on_rows(&scene, 2000), event(1e-8, span)),
+        ]
+        .map(|(scene, plan)| {
+            let (model, state, trace) = trace(scene, &plan, span / 500.0);
+            let [force, normal] = ["foot.fx_N", "foot.fn_N"].map(|name| column(&model, &trace, name));
+            for (force, normal) in force.iter().zip(&normal) {
+                assert!(force.abs() <= FRICTION * normal * (1.0 + 1e-9) + 1e-12, "{force} {normal}");
+            }
+            let error = column(&model, &trace, "energy.error_J");
+            let worst =
+                error.iter().fold(0.0_f64, |most, e| most.max(e.abs())) / (0.5 * MASS * SPEED * SPEED);
+            (rebound(like(0.3), &(model, state)), worst)
+        });
+        println!("{psi} {tangential}: {exact:?} {coarse:?} {fine:?} {row:?}");
+        assert!((exact.0 - fine.0).abs() < 1e-4 && (exact.0 - row.0).abs() < 2e-3);
+        assert!((exact.0 - fine.0).abs() < 0.6 * (exact.0 - coarse.0).abs() + 1e-6);
+        assert!(exact.1 < 1e-8, "{exact:?}");
+    }
+}
+
+/// Free bounces on a damped contact fade: the speed falls by e at each of them, and the ball comes to rest on the ground.
+#[test]
+fn bounces_fade() {
+    let mut scene = ball(like(0.3), 0.0);
+    scene.gravity = Gravity { acceleration: 9.81, ..Gravity::default() };
+    scene.contacts[0].part.normal_damping = NormalDamping::Time(3e-6);
+    let (model, state, trace) = trace(&scene, &event(1e-8, 0.5), 1e-3);
+    let touches = trace.events().filter(|(event, _)| event.kind == EventKind::Touch).count();
+    let speed = state.coordinate(&model, 0, Axis::Z).unwrap().1;
+    println!("{touches} touches, {speed:e} m/s, {:?}", state.counts());
+    assert!(touches > 3 && speed.abs() < 1e-3 * SPEED);
 }
 
 /// Error versus evaluations over six tolerances: with F_x as a state the order is kept through full stick. The run with the

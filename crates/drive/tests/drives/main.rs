@@ -48,6 +48,7 @@ mod stages;
 mod statics;
 mod steady;
 mod stiff;
+mod stops;
 mod straight_walks;
 mod swings;
 mod unfed_inputs;

@@ -2,8 +2,8 @@
 
 use stickslip_contact::{Interface, Material, Memory, Pair, Profile};
 use stickslip_drive::scene::{
-    Actuator, Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Load, Named, Normal, Point,
-    Scene, Side, Spring, Varying,
+    Actuator, Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Load, Named, Normal,
+    NormalDamping, Point, Scene, Side, Spring, Varying,
 };
 use stickslip_drive::{
     Event, Limits, Model, Moments, Plan, Record, RunError, Schedule, Shape, State, Stepper, Timing, Trace,
@@ -44,6 +44,7 @@ pub(crate) fn contact(between: [Side; 2], profile: Profile, friction: f64, force
         interface: Interface::new(steel(), profile, friction).unwrap(),
         normal: Normal::Force(Varying::Constant(force)),
         gap: 0.0,
+        normal_damping: NormalDamping::None,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,

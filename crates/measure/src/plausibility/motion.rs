@@ -1,6 +1,7 @@
 //! Plausibility of strokes, time scales of contacts, resonances, tolerances and frames.
 
 use super::{ASKED, Implausible, told};
+use crate::Setting;
 use std::f64::consts::TAU;
 use stickslip_drive::facts::{ExpectedEvents, fixed_steps, zero_step_stroke};
 use stickslip_drive::scene::{Freedom, Normal, Side, Varying};
@@ -9,8 +10,9 @@ use stickslip_scenario::{Hysteresis, substance};
 
 /// Range of plausible strokes of piezo drives, m: from the noise of amplifiers to the largest flexure drives.
 const STROKES: (f64, f64) = (1e-12, 1e-3);
-/// Largest plausible damping time of a contact, in periods of the drive. With longer times, damping forces dominate at all times.
-const DAMPED: f64 = 0.1;
+/// Largest plausible damping time of a contact, in flanks, and largest lead βu̇ in gross slip displacements.
+// Springs with and without damping during slip differ by 1 % of what damping changes.
+const FLANK: f64 = 0.15;
 /// Minimum duration of a flank, in passages of a shear wave through the contact.
 ///
 /// The contact is modelled as a spring without inertia, which holds for ωa/c ≪ 1 (Johnson, *Contact Mechanics*, section 11.2, after Miller
@@ -50,33 +52,9 @@ const BODIES: usize = 32;
 const RATE: f64 = 1e6;
 
 impl Implausible<'_> {
-    /// Returns the waveforms that prescribe lengths, with the bodies that they move.
-    fn lengths(&self) -> Vec<(usize, Vec<Side>)> {
-        let scene = &self.setting.scenario.scene;
-        let mut driven: Vec<Vec<Side>> = vec![Vec::new(); scene.waveforms.len()];
-        for (i, body) in scene.bodies.iter().enumerate() {
-            for coordinate in [body.part.x, body.part.z] {
-                if let Freedom::Follows(w) = coordinate.freedom
-                    && let Some(sides) = driven.get_mut(w)
-                {
-                    sides.push(Side::Body(i));
-                }
-            }
-        }
-        for actuator in &scene.actuators {
-            if let Varying::Follows(signal) = actuator.part.stroke
-                && let Some(w) = scene.waveform_of(signal)
-                && let Some(sides) = driven.get_mut(w)
-            {
-                sides.extend(actuator.part.between);
-            }
-        }
-        driven.into_iter().enumerate().filter(|(_, sides)| !sides.is_empty()).collect()
-    }
-
     /// Checks the strokes for a missing unit.
     pub(super) fn strokes(&mut self) {
-        for (w, _) in self.lengths() {
+        for (w, _) in lengths(self.setting) {
             let (low, high) = self.setting.scenario.scene.waveforms[w].part.range();
             let (stroke, path) = (high - low, self.setting.scenario.waveform_path(w).unwrap_or_default());
             let said = told(stroke, "m");
@@ -99,20 +77,18 @@ impl Implausible<'_> {
         }
     }
 
-    /// Warns about contact damping times that are long compared with the shortest period.
+    /// Warns about contact damping times that are long compared with the flanks of the waveforms.
     pub(super) fn damping_times(&mut self) {
         let setting = self.setting;
-        let scene = &setting.scenario.scene;
-        let periods = scene.waveforms.iter().filter_map(|waveform| waveform.part.period());
-        let period = periods.fold(f64::INFINITY, f64::min);
-        for contact in &scene.contacts {
-            let time = contact.part.interface.damping();
-            if time <= DAMPED * period {
+        for (c, contact) in setting.scenario.scene.contacts.iter().enumerate().take(ASKED) {
+            let shares = damping_shares(setting, c);
+            let Some([share, _]) = shares.filter(|[share, lead]| *share > FLANK && *lead > FLANK) else {
                 continue;
-            }
-            let [said, most, period] = [time, DAMPED * period, period].map(|time| told(time, "s"));
+            };
+            let said = told(contact.part.interface.damping(), "s");
             let message = format!(
-                "a damping time of {said} exceeds {most}, a tenth of the period of {period}: the contact force comes from dampers rather than from springs"
+                "a damping time of {said} is {share:.2} of the shortest flank, above {FLANK}: springs that slip have no damping, and \
+                 Kelvin–Voigt springs would give another motion"
             );
             let path = format!("contacts.{}.damping", contact.name);
             self.find("damping_time", &path, message, "typical values are 0.1 us to 10 us; check the unit");
@@ -122,7 +98,7 @@ impl Implausible<'_> {
     /// Warns about flanks that are short compared with the passage of a shear wave through the contact.
     pub(super) fn flanks(&mut self) {
         let (setting, scene) = (self.setting, &self.setting.scenario.scene);
-        for (w, sides) in self.lengths() {
+        for (w, sides) in lengths(self.setting) {
             let flank = shortest_flank(&scene.waveforms[w].part);
             let touches = |c: &usize| scene.contacts[*c].part.between.iter().any(|side| sides.contains(side));
             let touched = (0..scene.contacts.len().min(ASKED)).filter(touches);
@@ -172,7 +148,7 @@ impl Implausible<'_> {
             return;
         }
         let modes = setting.model.linearised(&setting.start, |d| d.start).modes();
-        for (w, sides) in self.lengths() {
+        for (w, sides) in lengths(self.setting) {
             let waveform = &scene.waveforms[w].part;
             let Some(period) = waveform.period() else { continue };
             for mode in &modes {
@@ -213,11 +189,11 @@ impl Implausible<'_> {
         let setting = self.setting;
         let stepper = setting.model.effective(setting.scenario.plan.stepper);
         let Accuracy::Tolerance(tolerance) = stepper.accuracy() else { return };
-        let lengths = self.lengths();
+        let lengths = lengths(self.setting);
         for (c, (name, law)) in setting.model.contacts().enumerate().take(ASKED) {
             let d = self.depth(c);
             let between = setting.scenario.scene.contacts[c].part.between;
-            let unit = law.gross_slip_displacement(d.max(0.0));
+            let unit = law.natural_displacement(d);
             if unit <= 0.0 || !between.iter().any(|side| self.is_free(*side)) {
                 continue;
             }
@@ -372,8 +348,7 @@ impl Implausible<'_> {
     /// Time steps do not end where the last spring slips or where the stiffness jumps.
     fn damped_frames(&mut self, accuracy: f64) {
         let setting = self.setting;
-        let flanks: Vec<(f64, Vec<Side>)> = self
-            .lengths()
+        let flanks: Vec<(f64, Vec<Side>)> = lengths(setting)
             .into_iter()
             .filter_map(|(w, sides)| Some((flank(&setting.scenario.scene.waveforms.get(w)?.part), sides)))
             .collect();
@@ -406,6 +381,50 @@ impl Implausible<'_> {
             self.find("frames_under_damping", &path, message, help);
         }
     }
+}
+
+/// Returns the waveforms that prescribe lengths, with the bodies that they move.
+fn lengths(setting: &Setting) -> Vec<(usize, Vec<Side>)> {
+    let scene = &setting.scenario.scene;
+    let mut driven: Vec<Vec<Side>> = vec![Vec::new(); scene.waveforms.len()];
+    for (i, body) in scene.bodies.iter().enumerate() {
+        for coordinate in [body.part.x, body.part.z] {
+            if let Freedom::Follows(w) = coordinate.freedom
+                && let Some(sides) = driven.get_mut(w)
+            {
+                sides.push(Side::Body(i));
+            }
+        }
+    }
+    for actuator in &scene.actuators {
+        if let Varying::Follows(signal) = actuator.part.stroke
+            && let Some(w) = scene.waveform_of(signal)
+            && let Some(sides) = driven.get_mut(w)
+        {
+            sides.extend(actuator.part.between);
+        }
+    }
+    driven.into_iter().enumerate().filter(|(_, sides)| !sides.is_empty()).collect()
+}
+
+/// Returns the damping time β of contact `c` divided by the shortest flank of the waveforms that move it, and βu̇/u_c at their largest speed.
+///
+/// Returns `None` for a contact without tangential damping or without such a waveform.
+pub fn damping_shares(setting: &Setting, c: usize) -> Option<[f64; 2]> {
+    let scene = &setting.scenario.scene;
+    let part = &scene.contacts.get(c)?.part;
+    let (time, natural) = (part.interface.damping(), setting.model.contact_natural(c)?);
+    let moving =
+        lengths(setting).into_iter().filter(|(_, sides)| part.between.iter().any(|s| sides.contains(s)));
+    let waves = moving.filter_map(|(w, _)| Some(&scene.waveforms.get(w)?.part));
+    let of = |wave: &Waveform| {
+        let (low, high) = wave.range();
+        let flank = shortest_flank(wave);
+        [flank, (high - low) / flank]
+    };
+    let [flank, speed] =
+        waves.map(of).fold([f64::INFINITY, 0.0], |all, one| [all[0].min(one[0]), all[1].max(one[1])]);
+    (time > 0.0 && flank < f64::INFINITY).then(|| [time / flank, time * speed / natural.displacement])
 }
 
 /// Returns the text about the error of frames with impacts.

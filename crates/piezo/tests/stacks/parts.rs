@@ -3,7 +3,8 @@
 use stickslip_contact::{Interface, Material, Pair, Profile};
 use stickslip_drive::component::SharedBlock;
 use stickslip_drive::scene::{
-    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, Point, Scene, Side, Varying,
+    Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, NormalDamping, Point, Scene, Side,
+    Varying,
 };
 use stickslip_drive::{Limits, Model, Plan, Shape, State, Stepper, Timing, Trace, Waveform, run};
 
@@ -34,6 +35,7 @@ pub(crate) fn scene(wave: Waveform, blocks: Vec<Named<SharedBlock>>) -> Scene {
         interface: Interface::new(pair, Profile::paraboloid(1e-3).unwrap(), 0.15).unwrap(),
         normal: Normal::Force(Varying::Constant(1.0)),
         gap: 0.0,
+        normal_damping: NormalDamping::None,
         start: ContactStart::Untouched,
         engine: EngineChoice::Curve,
         count: 1,

@@ -227,11 +227,33 @@ class NormalLawKind(TypedDict):
 
 class RoughKind(TypedDict):
     """Rough one-dimensional profile: heights at equal distances, measured or computed. Only the distribution of
-    the heights matters."""
+    the heights matters; the line is not a section of the surface."""
 
     rough: "Rough"
     """Rough one-dimensional profile: heights at equal distances, measured or computed. Only the distribution of
-    the heights matters."""
+    the heights matters; the line is not a section of the surface."""
+
+
+class ExponentialAsperitiesKind(TypedDict):
+    """Rough surface of spherical tips with exponentially distributed heights. Under a prescribed normal force
+    the tail of the distribution has no end; otherwise the heights end at the expected highest one, at which
+    the indentation begins."""
+
+    exponential_asperities: "ExponentialAsperities"
+    """Rough surface of spherical tips with exponentially distributed heights. Under a prescribed normal force
+    the tail of the distribution has no end; otherwise the heights end at the expected highest one, at which
+    the indentation begins."""
+
+
+class GaussianAsperitiesKind(TypedDict):
+    """Rough surface of spherical tips with normally distributed heights. Under a prescribed normal force the
+    tail of the distribution has no end; otherwise the heights end at the expected highest one, at which the
+    indentation begins."""
+
+    gaussian_asperities: "GaussianAsperities"
+    """Rough surface of spherical tips with normally distributed heights. Under a prescribed normal force the
+    tail of the distribution has no end; otherwise the heights end at the expected highest one, at which the
+    indentation begins."""
 
 
 class ForceKind(TypedDict):
@@ -262,6 +284,15 @@ class DisplacementKind(TypedDict):
 
     displacement: "Length"
     """Tangential displacement u of the preload, m; typical below the onset of gross slip, some 10 nm."""
+
+
+class RestKind(TypedDict):
+    """Time for which the contact has rested without preload, s, at least 0; for a static friction coefficient
+    that grows at rest."""
+
+    rest: "Time"
+    """Time for which the contact has rested without preload, s, at least 0; for a static friction coefficient
+    that grows at rest."""
 
 
 class SpringsKind(TypedDict):
@@ -896,11 +927,11 @@ class Contact(TypedDict):
     gap: NotRequired["Length"]
     """Gap between the bodies in the reference position, m, 0 by default; a negative value is an initial overlap.
     Only a contact whose `normal` is "coupled" has a gap."""
-    damping: NotRequired["Time"]
-    """Damping time constant β of the contact's springs, s, at least 0, 0 by default. A spring of stretch s
-    carries G*(s + βu̇), limited to its friction limit. A slipping spring has no damping."""
+    damping: NotRequired[Union["Time", "BothDamping"]]
+    """Damping of the contact: a time constant of its tangential springs, s, 0 by default, or an object with the
+    damping along both directions."""
 
-Profile = Union["FlatKind", "ConeKind", "ParaboloidKind", "SphereKind", "PowerKind", "FoundationKind", "TruncatedConeKind", "TruncatedParaboloidKind", "RoundedFlatKind", "TippedParaboloidKind", "PowersKind", "TableKind", "NormalLawKind", "RoughKind"]
+Profile = Union["FlatKind", "ConeKind", "ParaboloidKind", "SphereKind", "PowerKind", "FoundationKind", "TruncatedConeKind", "TruncatedParaboloidKind", "RoundedFlatKind", "TippedParaboloidKind", "PowersKind", "TableKind", "NormalLawKind", "RoughKind", "ExponentialAsperitiesKind", "GaussianAsperitiesKind"]
 """Profile f(r) of the gap between the undeformed bodies."""
 
 
@@ -1107,15 +1138,54 @@ class SelfAffine(TypedDict):
     """Seed of the pseudo-random phases, a whole number, 0 by default."""
 
 
+class ExponentialAsperities(TypedDict):
+    """Spherical tips with exponentially distributed heights."""
+
+    mean_height: "Length"
+    """Mean height l of the tips above the reference plane, m, above 0; typical 10 nm to 5 um."""
+    radius: "Length"
+    """Radius of the tips, m, above 0; typical 1 um to 1 mm."""
+    count: float
+    """Number of tips, 10 to 1e15."""
+
+
+class GaussianAsperities(TypedDict):
+    """Spherical tips with normally distributed heights."""
+
+    rms_height: "Length"
+    """Standard deviation of the heights about their mean plane, m, above 0; typical 10 nm to 5 um."""
+    radius: "Length"
+    """Radius of the tips, m, above 0; typical 1 um to 1 mm."""
+    count: float
+    """Number of tips, 10 to 1e15."""
+
+
 class StaticKinetic(TypedDict):
     """Static and kinetic friction coefficient. Partial slip obeys the static coefficient. When the last spring
     of the contact reaches its limit, the contact breaks loose: the limits of all springs fall to the kinetic
     coefficient at once. When it stops, it sticks again."""
 
-    static: float
-    """The static coefficient, 0 to 1000; typical 0.1 to 0.8."""
+    static: Union[float, "Growth"]
+    """The static coefficient, 0 to 1000; typical 0.1 to 0.8. Or its growth while the contact rests."""
     kinetic: float
     """The kinetic coefficient, 0 to the static one; typical 0.6 to 1 times the static one."""
+
+_Growth = TypedDict("_Growth", {"from": float}, total=False)
+
+
+class Growth(_Growth):
+    """Growth of the static friction coefficient μ_s with the time at rest t: μ_s = from + (to - from)(1 -
+    e^(-t/time)), or μ_s = from + per_e_fold ln(1 + t/time). The coefficient grows in 1024 stairs of `to -
+    from` or `per_e_fold`; each stair keeps the value with which it began. The time at rest begins when the
+    contact closes or sticks again."""
+
+    to: NotRequired[float]
+    """The static coefficient after a long rest, at least `from`; by default there is `per_e_fold` in its place."""
+    per_e_fold: NotRequired[float]
+    """Growth of the static coefficient each time that the time at rest grows by the factor e; by default there
+    is `to` in its place."""
+    time: "Time"
+    """Time constant of the growth, s, above 0."""
 
 Normal = Union[Literal["coupled"], "ForceKind", "IndentationKind", "RadiusKind"]
 """Normal loading of a contact."""
@@ -1133,7 +1203,7 @@ class Follows(TypedDict):
 MovingLength = Union["Length", "Follows"]
 """Length, constant or following a waveform."""
 
-ContactStart = Union[Literal["untouched"], "ForceKind", "DisplacementKind"]
+ContactStart = Union[Literal["untouched"], "ForceKind", "DisplacementKind", "RestKind"]
 """Initial tangential state of a contact at t = 0. A preload is applied monotonically to a contact without
 loading history."""
 
@@ -1149,6 +1219,24 @@ class Springs(TypedDict):
     span: NotRequired["Length"]
     """Length of the row, m, above 0; by default the contact width at the largest known load. The largest known
     load is an indentation or a normal force."""
+
+
+class BothDamping(TypedDict):
+    """Damping of a contact along both directions. Along the normal the contact is that of the elastic one
+    pressed by d + βḋ: force, radius, friction limit and slip memory follow d + βḋ, without tension. The
+    damping time β along the normal is given by `normal`, or by the coefficient of restitution of an impact."""
+
+    tangential: NotRequired["Time"]
+    """Damping time constant of the tangential springs, s, at least 0, 0 by default."""
+    normal: NotRequired["Time"]
+    """Damping time constant along the normal, s, at least 0, by default 0 or that of `restitution`. Only for a
+    contact whose `normal` is "coupled" or an indentation."""
+    restitution: NotRequired[float]
+    """Coefficient of restitution of an impact of the two bodies at the speed `at`, above 0, at most 1; none by
+    default. The impact has the effective mass of the bodies along the normal; a body that follows a waveform
+    is infinitely heavy."""
+    at: NotRequired["Velocity"]
+    """Speed of the impact, m/s, above 0; required beside `restitution`, none by default."""
 
 
 class Spring(TypedDict):
@@ -1383,6 +1471,24 @@ MovingMoment = Union["Moment", "Follows"]
 
 Moment = Quantity
 """A moment: a number in N m, or a string such as "1e-3 N m"."""
+
+
+class Stop(TypedDict):
+    """End stops of a body: springs that act beyond a position only and never pull. At the penetration p the
+    force is kp + cṗ, at least 0."""
+
+    on: str
+    """Name of the body."""
+    x: NotRequired[list[Union["Length", Literal[null]]]]
+    """Lowest and highest free position of the body along x, m; `null` without a stop there. Give `x` or `z`; the
+    other one has no stops by default."""
+    z: NotRequired[list[Union["Length", Literal[null]]]]
+    """Lowest and highest free position of the body along z, m; `null` without a stop there. Give `x` or `z`; the
+    other one has no stops by default."""
+    stiffness: "Stiffness"
+    """Stiffness k of each stop, N/m, above 0; typical 1 N/um to 1 kN/um."""
+    damping: NotRequired["Damping"]
+    """Damping c of each stop, N s/m, at least 0, 0 by default."""
 
 
 class Gravity(TypedDict):
@@ -1648,6 +1754,8 @@ class ScenarioDict(_ScenarioDict):
     """Piezo stacks by name; none by default."""
     loads: NotRequired[list["Load"]]
     """Forces and moments on bodies; none by default."""
+    stops: NotRequired[dict[str, "Stop"]]
+    """End stops of bodies by name; none by default."""
     gravity: NotRequired["Gravity"]
     """Gravity; none by default."""
     run: "Run"

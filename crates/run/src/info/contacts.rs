@@ -7,6 +7,7 @@ use serde::Serialize;
 use stickslip_contact::Interface;
 use stickslip_drive::facts;
 use stickslip_drive::scene::Side;
+use stickslip_measure::plausibility::damping_shares;
 use stickslip_quantity::Real;
 
 /// Properties of a contact.
@@ -41,6 +42,9 @@ pub struct ContactInfo {
     /// μ_k, kinetic coefficient of friction, if there is one. μ is then the static coefficient μ_s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub kinetic_friction: Option<Real>,
+    /// Damping of the contact, if it has any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub damping: Option<DampingInfo>,
     /// κ, tangential displacement at the onset of slip divided by the indentation of a spring: `κ = μE*/G*`, so that
     /// u_c = κd
     pub stick_slope: Real,
@@ -55,6 +59,37 @@ pub struct ContactInfo {
     #[serde(rename = "largest", skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-name" = "LOAD"))]
     pub most: Option<Pressed>,
+}
+
+/// Damping of a contact.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct DampingInfo {
+    /// β, damping time of the tangential springs. Absent if 0.
+    #[serde(rename = "tangential_s", skip_serializing_if = "Option::is_none")]
+    pub tangential: Option<Real>,
+    /// β of the tangential springs divided by the shortest flank of the waveforms that move the contact. Above 0.15 another law of
+    /// damping would give another motion. Absent without such a waveform.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flank_share: Option<Real>,
+    /// βu̇/u_c, lead of the damped springs at the largest mean speed of these waveforms, in gross slip displacements
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lead: Option<Real>,
+    /// β, damping time along the normal, given or from the coefficient of restitution. Absent if 0.
+    #[serde(rename = "normal_s", skip_serializing_if = "Option::is_none")]
+    pub normal: Option<Real>,
+}
+
+impl DampingInfo {
+    fn of(job: &Job, c: usize) -> Option<Self> {
+        let shares = damping_shares(job, c);
+        let times = job.model.damping(c).map(|time| (time > 0.0).then_some(Real(time)));
+        job.is_damped(c).then(|| Self {
+            tangential: times[0],
+            flank_share: shares.map(|[share, _]| Real(share)),
+            lead: shares.map(|[_, lead]| Real(lead)),
+            normal: times[1],
+        })
+    }
 }
 
 /// Properties that depend on the indentation. Forces, radius and pressure are those of one contact, stiffnesses and
@@ -142,6 +177,7 @@ fn contact(job: &Job, c: usize, law: &Interface) -> Option<ContactInfo> {
         similarity: similarity.to_string(),
         friction: Real(law.friction()),
         kinetic_friction: law.kinetic().map(|kinetic| Real(kinetic.friction())),
+        damping: DampingInfo::of(job, c),
         stick_slope: Real(law.stick_slope()),
         start: pressed(depths.start)?,
         least: if varies { pressed(depths.least) } else { None },

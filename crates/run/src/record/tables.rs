@@ -1,10 +1,11 @@
 //! Tables of a run on disk.
 
 use crate::cycles_table::CyclesTable;
-use crate::files::{CYCLES, EVENTS, STEPS, TRACE};
+use crate::files::{CYCLES, EVENTS, PULSES, STEPS, TRACE};
 use crate::folder::Folder;
 use crate::insides::Insides;
 use crate::job::Job;
+use crate::pulses_table::PulsesTable;
 use crate::seal::Seal;
 use crate::sheet::{LAST_BLOCK, Written};
 use crate::steps_table::StepsTable;
@@ -14,7 +15,7 @@ use std::io;
 use tempfile::NamedTempFile;
 
 /// Maximum number of tables.
-const MOST: usize = 8;
+const MOST: usize = 9;
 
 /// Tables under construction.
 pub(super) struct Tables<'a> {
@@ -23,6 +24,8 @@ pub(super) struct Tables<'a> {
     pub(super) cycles: CyclesTable,
     /// Table of steps. `None` if no steps are written.
     pub(super) steps: Option<StepsTable>,
+    /// Table of pulses. `None` if no steps are written.
+    pub(super) pulses: Option<PulsesTable>,
     pub(super) insides: Insides<'a>,
     /// Reserved disk space for the last block of each table.
     reserve: Vec<File>,
@@ -67,6 +70,11 @@ impl<'a> Tables<'a> {
             } else {
                 None
             },
+            pulses: if job.scenario.written.steps {
+                Some(PulsesTable::new(folder.draft(PULSES)?))
+            } else {
+                None
+            },
             insides: Insides::new(job, folder)?,
             reserve: (0..MOST).map(|_| folder.spare(LAST_BLOCK)).collect::<io::Result<_>>()?,
         })
@@ -77,6 +85,7 @@ impl<'a> Tables<'a> {
             || self.events.has_failed()
             || self.cycles.has_failed()
             || self.steps.as_ref().is_some_and(StepsTable::has_failed)
+            || self.pulses.as_ref().is_some_and(PulsesTable::has_failed)
             || self.insides.has_failed()
     }
 
@@ -93,9 +102,11 @@ impl<'a> Tables<'a> {
         let mut closed = Closed::default();
         let mut all = vec![(TRACE, self.trace.finish()?), (EVENTS, self.events.finish()?)];
         let mut optional = Vec::new();
-        for (name, finished) in
-            [(CYCLES, self.cycles.finish()), (STEPS, self.steps.map_or(Ok(None), StepsTable::finish))]
-        {
+        for (name, finished) in [
+            (CYCLES, self.cycles.finish()),
+            (STEPS, self.steps.map_or(Ok(None), StepsTable::finish)),
+            (PULSES, self.pulses.map_or(Ok(None), PulsesTable::finish)),
+        ] {
             match finished {
                 Ok(written) => optional.extend(written.map(|written| (name, written))),
                 // The other tables are useful without this table.

@@ -1,7 +1,7 @@
 //! Contacts.
 
 use super::{Count, Moving, Points, ProfileForm, Two};
-use crate::quantity::{Force, Length, Time, dimension};
+use crate::quantity::{Dimension, Force, Length, Quantity, Time, Velocity, dimension};
 use crate::schema::{above_zero, at_least_zero};
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
@@ -53,11 +53,54 @@ pub(crate) struct ContactForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"2 um")]
     pub(crate) gap: Option<Length>,
-    /// Damping time constant β of the contact's springs, s, at least 0, 0 by default. A spring of stretch s carries G*(s + βu̇), limited to
-    /// its friction limit. A slipping spring has no damping.
+    /// Damping of the contact: a time constant of its tangential springs, s, 0 by default, or an object with the damping along both
+    /// directions.
+    #[serde(default = "no_damping", skip_serializing_if = "is_undamped")]
+    #[schemars(example = &"1 us", example = json!({ "tangential": "1 us", "restitution": 0.8, "at": "0.1 m/s" }))]
+    pub(crate) damping: DampingForm,
+}
+
+/// Damping of a contact.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(inline)]
+pub(crate) enum DampingForm {
+    /// Damping time constant β of the tangential springs, s, at least 0. A spring of stretch s carries G*(s + βu̇), limited to its friction
+    /// limit. A slipping spring has no damping.
+    Tangential(#[schemars(transform = at_least_zero)] Time),
+    /// Damping along both directions.
+    Both(BothDampingForm),
+}
+
+impl<'de> Deserialize<'de> for DampingForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        quantity_or(deserializer, Self::Tangential, Self::Both)
+    }
+}
+
+/// Damping of a contact along both directions. Along the normal the contact is that of the elastic one pressed by d + βḋ: force, radius,
+/// friction limit and slip memory follow d + βḋ, without tension. The damping time β along the normal is given by `normal`, or by the
+/// coefficient of restitution of an impact.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BothDampingForm {
+    /// Damping time constant of the tangential springs, s, at least 0, 0 by default.
     #[serde(default = "no_time", skip_serializing_if = "is_zero")]
     #[schemars(example = &"1 us", transform = at_least_zero)]
-    pub(crate) damping: Time,
+    pub(crate) tangential: Time,
+    /// Damping time constant along the normal, s, at least 0, by default 0 or that of `restitution`. Only for a contact whose `normal` is "coupled" or an indentation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"2 us", transform = at_least_zero)]
+    pub(crate) normal: Option<Time>,
+    /// Coefficient of restitution of an impact of the two bodies at the speed `at`, above 0, at most 1; none by default. The impact
+    /// has the effective mass of the bodies along the normal; a body that follows a waveform is infinitely heavy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0), example = 0.8)]
+    pub(crate) restitution: Option<f64>,
+    /// Speed of the impact, m/s, above 0; required beside `restitution`, none by default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = &"0.1 m/s", transform = above_zero)]
+    pub(crate) at: Option<Velocity>,
 }
 
 /// Friction coefficient of a contact, or its static and its kinetic coefficient.
@@ -71,36 +114,61 @@ pub(crate) enum FrictionForm {
     Two(StaticKineticForm),
 }
 
-// Deserialized by hand, so that errors are those of a number or of the object's keys.
 impl<'de> Deserialize<'de> for FrictionForm {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct FrictionVisitor;
-        impl<'de> Visitor<'de> for FrictionVisitor {
-            type Value = FrictionForm;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                // The word by which serde asks for a number.
-                f.write_str("f64")
-            }
-
-            fn visit_f64<E: de::Error>(self, number: f64) -> Result<FrictionForm, E> {
-                Ok(FrictionForm::One(number))
-            }
-
-            fn visit_u64<E: de::Error>(self, number: u64) -> Result<FrictionForm, E> {
-                Ok(FrictionForm::One(number as f64))
-            }
-
-            fn visit_i64<E: de::Error>(self, number: i64) -> Result<FrictionForm, E> {
-                Ok(FrictionForm::One(number as f64))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<FrictionForm, A::Error> {
-                StaticKineticForm::deserialize(MapAccessDeserializer::new(map)).map(FrictionForm::Two)
-            }
-        }
-        deserializer.deserialize_any(FrictionVisitor)
+        number_or(deserializer, Self::One, Self::Two)
     }
+}
+
+/// Static friction coefficient, or its growth while the contact rests.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(inline)]
+pub(crate) enum StaticForm {
+    /// The static coefficient, 0 to 1000; typical 0.1 to 0.8.
+    One(#[schemars(range(min = 0.0, max = 1000.0))] f64),
+    /// Growth of the static coefficient at rest.
+    Growth(GrowthForm),
+}
+
+impl<'de> Deserialize<'de> for StaticForm {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        number_or(deserializer, Self::One, Self::Growth)
+    }
+}
+
+/// Deserializes a number or an object, so that errors are those of a number or of the object's keys.
+fn number_or<'de, D: Deserializer<'de>, T: Deserialize<'de>, V>(
+    deserializer: D,
+    number: fn(f64) -> V,
+    object: fn(T) -> V,
+) -> Result<V, D::Error> {
+    struct NumberOr<T, V>(fn(f64) -> V, fn(T) -> V);
+    impl<'de, T: Deserialize<'de>, V> Visitor<'de> for NumberOr<T, V> {
+        type Value = V;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            // The word by which serde asks for a number.
+            f.write_str("f64")
+        }
+
+        fn visit_f64<E: de::Error>(self, number: f64) -> Result<V, E> {
+            Ok(self.0(number))
+        }
+
+        fn visit_u64<E: de::Error>(self, number: u64) -> Result<V, E> {
+            Ok(self.0(number as f64))
+        }
+
+        fn visit_i64<E: de::Error>(self, number: i64) -> Result<V, E> {
+            Ok(self.0(number as f64))
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<V, A::Error> {
+            T::deserialize(MapAccessDeserializer::new(map)).map(self.1)
+        }
+    }
+    deserializer.deserialize_any(NumberOr(number, object))
 }
 
 /// Static and kinetic friction coefficient. Partial slip obeys the static coefficient. When the last spring of the contact reaches its
@@ -108,13 +176,80 @@ impl<'de> Deserialize<'de> for FrictionForm {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StaticKineticForm {
-    /// The static coefficient, 0 to 1000; typical 0.1 to 0.8.
+    /// The static coefficient, 0 to 1000; typical 0.1 to 0.8. Or its growth while the contact rests.
     #[serde(rename = "static")]
-    #[schemars(range(min = 0.0, max = 1000.0), example = 0.3)]
-    pub(crate) at_rest: f64,
+    #[schemars(example = 0.3, example = json!({ "from": 0.2, "to": 0.3, "time": "1 s" }))]
+    pub(crate) at_rest: StaticForm,
     /// The kinetic coefficient, 0 to the static one; typical 0.6 to 1 times the static one.
     #[schemars(range(min = 0.0, max = 1000.0), example = 0.2)]
     pub(crate) kinetic: f64,
+}
+
+/// Growth of the static friction coefficient μ_s with the time at rest t: μ_s = from + (to - from)(1 - e^(-t/time)), or
+/// μ_s = from + per_e_fold ln(1 + t/time). The coefficient grows in 1024 stairs of `to - from` or `per_e_fold`; each stair keeps the value
+/// with which it began. The time at rest begins when the contact closes or sticks again.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GrowthForm {
+    /// The static coefficient at the beginning of rest, at least the kinetic one.
+    #[schemars(range(min = 0.0, max = 1000.0), example = 0.2)]
+    pub(crate) from: f64,
+    /// The static coefficient after a long rest, at least `from`; by default there is `per_e_fold` in its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1000.0), example = 0.3)]
+    pub(crate) to: Option<f64>,
+    /// Growth of the static coefficient each time that the time at rest grows by the factor e; by default there is `to` in its place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1000.0), example = 0.01)]
+    pub(crate) per_e_fold: Option<f64>,
+    /// Time constant of the growth, s, above 0.
+    #[schemars(example = &"1 s", transform = above_zero)]
+    pub(crate) time: Time,
+}
+
+/// Deserializes a quantity or an object, so that errors are those of a quantity or of the object's keys.
+fn quantity_or<'de, D: Deserializer<'de>, K: Dimension, T: Deserialize<'de>, V>(
+    deserializer: D,
+    quantity: fn(Quantity<K>) -> V,
+    object: fn(T) -> V,
+) -> Result<V, D::Error> {
+    struct QuantityOr<K, T, V>(fn(Quantity<K>) -> V, fn(T) -> V);
+    impl<'de, K: Dimension, T: Deserialize<'de>, V> Visitor<'de> for QuantityOr<K, T, V> {
+        type Value = V;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            write!(f, "{} such as \"{}\" or an object", K::KIND.article(), K::KIND.example())
+        }
+
+        fn visit_f64<E: de::Error>(self, si: f64) -> Result<V, E> {
+            Quantity::from_si(si).map(self.0).map_err(E::custom)
+        }
+
+        fn visit_i64<E: de::Error>(self, value: i64) -> Result<V, E> {
+            self.visit_f64(value as f64)
+        }
+
+        fn visit_u64<E: de::Error>(self, value: u64) -> Result<V, E> {
+            self.visit_f64(value as f64)
+        }
+
+        fn visit_str<E: de::Error>(self, text: &str) -> Result<V, E> {
+            Quantity::parse(text).map(self.0).map_err(E::custom)
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<V, A::Error> {
+            T::deserialize(MapAccessDeserializer::new(map)).map(self.1)
+        }
+    }
+    deserializer.deserialize_any(QuantityOr(quantity, object))
+}
+
+fn no_damping() -> DampingForm {
+    DampingForm::Tangential(no_time())
+}
+
+fn is_undamped(damping: &DampingForm) -> bool {
+    matches!(damping, DampingForm::Tangential(time) if is_zero(time))
 }
 
 fn one() -> Count {
@@ -160,6 +295,9 @@ pub(crate) enum ContactStartForm {
     /// Tangential displacement u of the preload, m; typical below the onset of gross slip, some 10 nm.
     #[schemars(example = json!({ "displacement": "3 nm" }))]
     Displacement(Length),
+    /// Time for which the contact has rested without preload, s, at least 0; for a static friction coefficient that grows at rest.
+    #[schemars(example = json!({ "rest": "10 s" }), transform = at_least_zero)]
+    Rest(Time),
 }
 
 /// Method that solves the tangential problem of a contact.

@@ -1,8 +1,8 @@
 //! Keys of springs, loads and gravity.
 
 use super::{Moving, PointForm, Points, Two};
-use crate::quantity::{Acceleration, Angle, Damping, Force, Stiffness, dimension};
-use crate::schema::{at_least_zero, something_on_it, something_to_do};
+use crate::quantity::{Acceleration, Angle, Damping, Force, Length, Stiffness, dimension};
+use crate::schema::{above_zero, at_least_zero, items_or_null, something_on_it, something_to_do};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -51,6 +51,32 @@ pub(crate) struct SpringForm {
     #[serde(default = "no_force")]
     #[schemars(example = &"-1 mN")]
     pub(crate) preload: Force,
+}
+
+/// End stops of a body: springs that act beyond a position only and never pull. At the penetration p the force is kp + cṗ, at least 0.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StopForm {
+    /// Name of the body.
+    #[schemars(example = &"slider")]
+    pub(crate) on: String,
+    /// Lowest and highest free position of the body along x, m; `null` without a stop there. Give `x` or `z`; the other one has no stops by
+    /// default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!(["0 mm", "1 mm"]), example = json!([null, "1 mm"]), transform = items_or_null)]
+    pub(crate) x: Option<[Option<Length>; 2]>,
+    /// Lowest and highest free position of the body along z, m; `null` without a stop there. Give `x` or `z`; the other one has no stops by
+    /// default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = json!(["0 mm", null]), transform = items_or_null)]
+    pub(crate) z: Option<[Option<Length>; 2]>,
+    /// Stiffness k of each stop, N/m, above 0; typical 1 N/um to 1 kN/um.
+    #[schemars(example = &"100 N/um", transform = above_zero)]
+    pub(crate) stiffness: Stiffness,
+    /// Damping c of each stop, N s/m, at least 0, 0 by default.
+    #[serde(default = "no_damping")]
+    #[schemars(example = &"50 N s/m", transform = at_least_zero)]
+    pub(crate) damping: Damping,
 }
 
 /// Force and moment on a body; give at least one of `x`, `z` and `pitch`.

@@ -30,8 +30,10 @@ pub(crate) use bordered::{
     PowersForm, RoundedFlatForm, TippedParaboloidForm, TruncatedConeForm, TruncatedParaboloidForm,
 };
 pub(crate) use ceramic::{BoucWenForm, CreepForm, HysteresisForm, LoopForm, PlaysForm};
-pub(crate) use contact::{ContactForm, ContactStartForm, EngineForm, FrictionForm, NormalForm};
-pub(crate) use coupling::{DirectionForm, GravityForm, LoadForm, SpringForm};
+pub(crate) use contact::{
+    ContactForm, ContactStartForm, DampingForm, EngineForm, FrictionForm, GrowthForm, NormalForm, StaticForm,
+};
+pub(crate) use coupling::{DirectionForm, GravityForm, LoadForm, SpringForm, StopForm};
 pub(crate) use generator::{CycleForm, GeneratorForm, HeadingForm};
 pub(crate) use input::{Bounds, InputForm, InterpolationForm};
 pub(crate) use lengths::Lengths;
@@ -112,6 +114,10 @@ pub(crate) struct Form {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(example = json!([{ "on": "slider", "x": "-0.02 N" }]))]
     pub(crate) loads: Vec<LoadForm>,
+    /// End stops of bodies by name; none by default.
+    #[serde(default, skip_serializing_if = "Parts::is_empty")]
+    #[schemars(example = json!({ "travel": { "on": "slider", "x": ["-1 mm", "1 mm"], "stiffness": "100 N/um" } }))]
+    pub(crate) stops: Parts<StopForm>,
     /// Gravity; none by default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = json!({ "acceleration": "9.81 m/s²", "incline": "90 deg" }))]

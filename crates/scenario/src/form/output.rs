@@ -26,7 +26,8 @@ pub(crate) struct OutputForm {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(example = &"off", example = json!({ "kinds": ["gross slip", "gross slip ends"] }))]
     pub(crate) events: Option<EventsOutputForm>,
-    /// Steps of a drive written to `steps.csv`: `all` (default) or `off`. Results are computed from all steps in any case.
+    /// Steps of a drive written to `steps.csv`, and of single pulses of a burst or a sequence to `pulses.csv`: `all` (default) or `off`.
+    /// Results are computed from all steps in any case.
     #[serde(default, skip_serializing_if = "StepsOutputForm::is_all")]
     #[schemars(example = &"off")]
     pub(crate) steps: StepsOutputForm,

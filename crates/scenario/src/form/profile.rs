@@ -53,9 +53,18 @@ pub(crate) enum ProfileForm {
     /// Profile given by points of its normal law, force over indentation.
     #[schemars(example = json!({ "normal_law": { "points": [[0, 0], ["50 nm", "20 mN"], ["100 nm", "60 mN"]] } }))]
     NormalLaw(NormalLawForm),
-    /// Rough one-dimensional profile: heights at equal distances, measured or computed. Only the distribution of the heights matters.
+    /// Rough one-dimensional profile: heights at equal distances, measured or computed. Only the distribution of the heights matters; the
+    /// line is not a section of the surface.
     #[schemars(example = json!({ "rough": { "heights": [0, "12 nm", "7 nm"], "spacing": "1 um" } }))]
     Rough(RoughForm),
+    /// Rough surface of spherical tips with exponentially distributed heights. Under a prescribed normal force the tail of the distribution
+    /// has no end; otherwise the heights end at the expected highest one, at which the indentation begins.
+    #[schemars(example = json!({ "exponential_asperities": { "mean_height": "1 um", "radius": "50 um", "count": 10000 } }))]
+    ExponentialAsperities(ExponentialAsperitiesForm),
+    /// Rough surface of spherical tips with normally distributed heights. Under a prescribed normal force the tail of the distribution
+    /// has no end; otherwise the heights end at the expected highest one, at which the indentation begins.
+    #[schemars(example = json!({ "gaussian_asperities": { "rms_height": "1 um", "radius": "50 um", "count": 10000 } }))]
+    GaussianAsperities(GaussianAsperitiesForm),
 }
 
 impl ProfileForm {
@@ -76,8 +85,40 @@ impl ProfileForm {
             Self::Table(_) => "table",
             Self::NormalLaw(_) => "normal_law",
             Self::Rough(_) => "rough",
+            Self::ExponentialAsperities(_) => "exponential_asperities",
+            Self::GaussianAsperities(_) => "gaussian_asperities",
         }
     }
+}
+
+/// Spherical tips with exponentially distributed heights.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ExponentialAsperitiesForm {
+    /// Mean height l of the tips above the reference plane, m, above 0; typical 10 nm to 5 um.
+    #[schemars(example = &"1 um", transform = above_zero)]
+    pub(crate) mean_height: Length,
+    /// Radius of the tips, m, above 0; typical 1 um to 1 mm.
+    #[schemars(example = &"50 um", transform = above_zero)]
+    pub(crate) radius: Length,
+    /// Number of tips, 10 to 1e15.
+    #[schemars(range(min = 10.0, max = 1e15), example = 10000)]
+    pub(crate) count: f64,
+}
+
+/// Spherical tips with normally distributed heights.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GaussianAsperitiesForm {
+    /// Standard deviation of the heights about their mean plane, m, above 0; typical 10 nm to 5 um.
+    #[schemars(example = &"1 um", transform = above_zero)]
+    pub(crate) rms_height: Length,
+    /// Radius of the tips, m, above 0; typical 1 um to 1 mm.
+    #[schemars(example = &"50 um", transform = above_zero)]
+    pub(crate) radius: Length,
+    /// Number of tips, 10 to 1e15.
+    #[schemars(range(min = 10.0, max = 1e15), example = 10000)]
+    pub(crate) count: f64,
 }
 
 /// A flat punch, given by its radius or its diameter.

@@ -3,12 +3,14 @@
 use super::profile::profile;
 use super::{Builder, names, range};
 use crate::fault::Fault;
-use crate::form::{ContactForm, ContactStartForm, EngineForm, FrictionForm, NormalForm};
+use crate::form::{
+    ContactForm, ContactStartForm, DampingForm, EngineForm, FrictionForm, GrowthForm, NormalForm, StaticForm,
+};
 use crate::named::MATERIALS;
 use crate::path::At;
 use crate::suggest;
-use stickslip_contact::{Interface, Pair, Profile};
-use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal};
+use stickslip_contact::{Growth, Interface, Pair, Profile};
+use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal, NormalDamping};
 
 /// Maximum number of identical contacts, and of springs of a row.
 const MAX_COUNT: u64 = 1_000_000;
@@ -24,12 +26,41 @@ fn interface(at: &At<'_>, form: &FrictionForm, pair: Pair, profile: Profile) -> 
             fault.help("the Coulomb coefficient of the pair; typical 0.05 to 0.6")
         }),
         FrictionForm::Two(two) => {
-            let interface = Interface::new(pair, profile, two.at_rest)
-                .map_err(|_| within(&at.key("static"), Interface::MAX_FRICTION))?;
+            let at_rest = at.key("static");
+            let own = |at: &At<'_>, value: f64| {
+                Interface::new(pair, profile.clone(), value).map_err(|_| within(at, Interface::MAX_FRICTION))
+            };
+            let interface = match &two.at_rest {
+                StaticForm::One(value) => own(&at_rest, *value)?,
+                StaticForm::Growth(form) => {
+                    let interface = own(&at_rest.key("from"), form.from)?;
+                    let growth = growth(&at_rest, form)?;
+                    interface.with_growth(growth).map_err(|fault| at_rest.fault(fault.to_string()))?
+                }
+            };
+            let most = interface.friction();
             interface.with_kinetic_friction(two.kinetic).map_err(|_| {
-                let fault = within(&at.key("kinetic"), two.at_rest);
+                let fault = within(&at.key("kinetic"), most);
                 fault.help("the kinetic coefficient is at most the static one")
             })
+        }
+    }
+}
+
+/// Returns the growth of a static friction coefficient at rest.
+fn growth(at: &At<'_>, form: &GrowthForm) -> Result<Growth, Fault> {
+    let time = range::above_zero(&at.key("time"), form.time)?;
+    let most = Interface::MAX_FRICTION;
+    let within = |key: &str, least: f64, value: f64| match (least..=most).contains(&value) {
+        true => Ok(value),
+        false => Err(at.key(key).expected(format_args!("a number between {least} and {most}"))),
+    };
+    match (form.to, form.per_e_fold) {
+        (Some(to), None) => Ok(Growth::Exponential { rise: within("to", form.from, to)? - form.from, time }),
+        (None, Some(rise)) => Ok(Growth::Logarithmic { rise: within("per_e_fold", 0.0, rise)?, time }),
+        _ => {
+            let fault = at.fault("expected either \"to\" or \"per_e_fold\" beside \"from\" and \"time\"");
+            Err(fault.help("\"to\" is the coefficient after a long rest, \"per_e_fold\" a growth with the logarithm of time"))
         }
     }
 }
@@ -50,16 +81,17 @@ impl Builder<'_> {
     fn contact(&mut self, at: &At<'_>, form: &ContactForm) -> Result<Contact, Fault> {
         let between = self.between(at, &form.between)?;
         let pair = self.pair(&at.key("materials"), &form.materials.0)?;
-        let profile = profile(&at.key("profile"), &form.profile, pair)?;
+        let profile = profile(&at.key("profile"), &form.profile, (pair, &form.normal))?;
         let interface = interface(&at.key("friction"), &form.friction, pair, profile)?;
-        let interface = interface.with_damping(form.damping.si);
+        let (tangential, normal_damping) = damping(&at.key("damping"), &form.damping)?;
+        let interface = interface.with_damping(tangential);
         let normal = self.normal(&at.key("normal"), &form.normal)?;
-        let start = contact_start(&form.start);
+        let start = contact_start(&at.key("start"), &form.start)?;
         let engine = self.engine(&at.key("engine"), &form.engine)?;
         let count = range::count_between(&at.key("count"), form.count.0, 1, MAX_COUNT)? as u32;
         let gap = gap(at, form)?;
         let at = self.points(at, &form.between, &form.at)?;
-        Ok(Contact { between, at, interface, normal, gap, start, engine, count })
+        Ok(Contact { between, at, interface, normal, gap, normal_damping, start, engine, count })
     }
 
     fn pair(&self, at: &At<'_>, names: &[String; 2]) -> Result<Pair, Fault> {
@@ -114,10 +146,43 @@ fn gap(at: &At<'_>, form: &ContactForm) -> Result<f64, Fault> {
     }
 }
 
-fn contact_start(form: &ContactStartForm) -> ContactStart {
-    match form {
+/// Returns the damping time of the tangential springs, s, and the damping along the normal.
+fn damping(at: &At<'_>, form: &DampingForm) -> Result<(f64, NormalDamping), Fault> {
+    let form = match form {
+        DampingForm::Tangential(time) => return Ok((time.si, NormalDamping::None)),
+        DampingForm::Both(form) => form,
+    };
+    let tangential = range::at_least_zero(&at.key("tangential"), form.tangential)?;
+    let normal = match (form.normal, form.restitution, form.at) {
+        (None, None, None) => NormalDamping::None,
+        (Some(time), None, None) => NormalDamping::Time(range::at_least_zero(&at.key("normal"), time)?),
+        (None, Some(coefficient), Some(speed)) => {
+            if !(coefficient > 0.0 && coefficient <= 1.0) {
+                let fault = at.key("restitution").expected("a number above 0, at most 1");
+                return Err(fault.help("the speed after an impact divided by the speed before; 1 is no loss"));
+            }
+            let speed = range::above_zero(&at.key("at"), speed)?;
+            NormalDamping::Restitution { coefficient, speed }
+        }
+        (Some(_), ..) => {
+            let fault = at.fault("expected either \"normal\" or \"restitution\" and \"at\"");
+            return Err(
+                fault.help("a coefficient of restitution determines the damping time along the normal")
+            );
+        }
+        (None, ..) => {
+            let fault = at.fault("expected \"restitution\" and \"at\" together");
+            return Err(fault.help("the coefficient of restitution depends on the speed \"at\" of the impact, such as \"0.1 m/s\""));
+        }
+    };
+    Ok((tangential, normal))
+}
+
+fn contact_start(at: &At<'_>, form: &ContactStartForm) -> Result<ContactStart, Fault> {
+    Ok(match form {
         ContactStartForm::Untouched => ContactStart::Untouched,
         ContactStartForm::Force(force) => ContactStart::Force(force.si),
         ContactStartForm::Displacement(u) => ContactStart::Displacement(u.si),
-    }
+        ContactStartForm::Rest(time) => ContactStart::Rest(range::at_least_zero(&at.key("rest"), *time)?),
+    })
 }

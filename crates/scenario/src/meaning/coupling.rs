@@ -7,7 +7,7 @@ use crate::form::{DirectionForm, LoadForm, Moving};
 use crate::path::At;
 use crate::quantity::Dimension;
 use std::f64::consts::PI;
-use stickslip_drive::scene::{Direction, Gravity, Load, Named, Point, Spring, Varying};
+use stickslip_drive::scene::{Direction, Gravity, Load, Named, Point, Spring, Stop, Varying};
 
 impl Builder<'_> {
     /// Adds all springs in the order of the file.
@@ -26,6 +26,41 @@ impl Builder<'_> {
                 preload: spring.preload.si,
             };
             self.scene.springs.push(Named { name: name.to_owned(), part });
+        }
+        Ok(())
+    }
+
+    /// Adds all end stops in the order of the file.
+    pub(super) fn stops(&mut self) -> Result<(), Fault> {
+        let form = self.form;
+        let root = At::ROOT;
+        let at = root.key("stops");
+        for (name, stop) in form.stops.iter() {
+            let at = at.key(name);
+            let (direction, ends) = match (stop.x, stop.z) {
+                (Some(ends), None) => (Direction::X, ends),
+                (None, Some(ends)) => (Direction::Z, ends),
+                _ => {
+                    let fault = at.fault("expected the positions of the stops along either \"x\" or \"z\"");
+                    return Err(
+                        fault.help("such as \"x\": [\"0 mm\", \"1 mm\"]; null means no stop at that end")
+                    );
+                }
+            };
+            let part = Stop {
+                on: self.body(&at.key("on"), &stop.on)?,
+                direction,
+                ends: ends.map(|end| end.map(|position| position.si)),
+                stiffness: range::above_zero(&at.key("stiffness"), stop.stiffness)?,
+                damping: range::at_least_zero(&at.key("damping"), stop.damping)?,
+            };
+            for end in ["low", "high"].map(|end| format!("{name}_{end}")) {
+                if self.scene.contacts.iter().any(|contact| contact.name == end) {
+                    let fault = at.fault(format!("the contact {end} has the name of this stop in results"));
+                    return Err(fault.help("rename the stop or the contact"));
+                }
+            }
+            self.scene.stops.push(Named { name: name.to_owned(), part });
         }
         Ok(())
     }

@@ -126,6 +126,7 @@ pub(crate) fn of(form: &Form) -> Result<Meaning, Fault> {
     builder.springs()?;
     builder.actuators()?;
     builder.loads()?;
+    builder.stops()?;
     builder.chains()?;
     builder.gravity()?;
     builder.actions()?;

@@ -23,6 +23,7 @@ pub(super) fn check(form: &Form) -> Result<(), Fault> {
     check_part(&root.key("bodies"), &form.bodies)?;
     check_part(&root.key("contacts"), &form.contacts)?;
     check_part(&root.key("springs"), &form.springs)?;
+    check_part(&root.key("stops"), &form.stops)?;
     check_part(&root.key("actuators"), &form.actuators)?;
     check_count(&root.key("loads"), form.loads.len())?;
     if form.bodies.find(GROUND).is_some() {

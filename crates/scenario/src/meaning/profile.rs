@@ -2,18 +2,23 @@
 
 use super::{measured, range};
 use crate::fault::Fault;
-use crate::form::{FoundationForm, Lengths, PowersForm, ProfileForm};
+use crate::form::{FoundationForm, Lengths, NormalForm, PowersForm, ProfileForm};
 use crate::guide::Help;
 use crate::path::At;
 use crate::units::Kind;
-use stickslip_contact::{Pair, Profile, ProfileError};
+use stickslip_contact::{Heights, Pair, Profile, ProfileError};
 
 /// Maximum number of terms of a sum of powers. Each term costs a power in every evaluation.
 const MAX_TERMS: usize = 16;
 
 /// Converts a profile between bodies of the given pair of materials.
-pub(super) fn profile(at: &At<'_>, form: &ProfileForm, pair: Pair) -> Result<Profile, Fault> {
+pub(super) fn profile(
+    at: &At<'_>,
+    form: &ProfileForm,
+    (pair, normal): (Pair, &NormalForm),
+) -> Result<Profile, Fault> {
     let at = at.key(form.word());
+    let endless = matches!(normal, NormalForm::Force(_));
     let profile = match form {
         ProfileForm::Flat(flat) => Profile::flat(flat.radius.si),
         ProfileForm::Cone(cone) => Profile::cone(cone.slope),
@@ -29,10 +34,21 @@ pub(super) fn profile(at: &At<'_>, form: &ProfileForm, pair: Pair) -> Result<Pro
         ProfileForm::Table(form) => return measured::table(&at, form),
         ProfileForm::NormalLaw(form) => return measured::normal_law(&at, form, pair),
         ProfileForm::Rough(form) => return measured::rough(&at, form),
+        ProfileForm::ExponentialAsperities(it) => {
+            Profile::asperities(Heights::Exponential, it.mean_height.si, it.radius.si, it.count, endless)
+        }
+        ProfileForm::GaussianAsperities(it) => {
+            Profile::asperities(Heights::Gaussian, it.rms_height.si, it.radius.si, it.count, endless)
+        }
     };
     let length = |key| at.key(key).expected(range::above(Kind::Length));
     profile.map_err(|error| match error {
         ProfileError::Radius(_) => length("radius"),
+        ProfileError::Scale(_) => {
+            let gaussian = matches!(form, ProfileForm::GaussianAsperities(_));
+            length(if gaussian { "rms_height" } else { "mean_height" })
+        }
+        ProfileError::Tips(_) => at.key("count").expected("a number between 10 and 1e15"),
         ProfileError::Flat(_) => length("flat"),
         ProfileError::Tip(_) => length("tip"),
         ProfileError::Slope(_) => at.key("slope").expected(range::ABOVE),

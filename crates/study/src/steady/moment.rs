@@ -66,7 +66,7 @@ impl Record for Moments {
         self.grip.iter_mut().for_each(|grip| grip.event(event));
         match (event.source, event.kind) {
             (Source::Contact(c), EventKind::GrossSlip | EventKind::BreaksLoose | EventKind::LiftOff) => {
-                self.gave_way[c] = true;
+                self.gave_way.get_mut(c).into_iter().for_each(|gave_way| *gave_way = true);
             }
             // During a jump of the velocity, a contact may slip grossly without an event. Its stick radius is then 0.
             (_, EventKind::Jump) => {

@@ -3,7 +3,7 @@
 use super::digits::digits;
 use super::tables::{WIDTH, grid, unbroken};
 use stickslip_run::Real;
-use stickslip_run::info::{ContactInfo, Loaded, Pressed};
+use stickslip_run::info::{ContactInfo, DampingInfo, Loaded, Pressed};
 use stickslip_run::quantity;
 
 /// Padding of a column.
@@ -76,6 +76,10 @@ fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
             None => c.friction.0.to_string(),
         }),
         word("κ = μE*/G*", &|c| digits(c.stick_slope.0)),
+        word("β, damping of the springs", &|c| damping_time(c, |it| it.tangential)),
+        word("β over the shortest flank", &|c| damping(c, |it| it.flank_share)),
+        word("βu̇/u_c at the largest speed", &|c| damping(c, |it| it.lead)),
+        word("β, damping along the normal", &|c| damping_time(c, |it| it.normal)),
         pressed("F_N, normal force per contact", "N", &|p| Some(p.normal_force)),
         pressed("d, indentation", "m", &|p| Some(p.indentation)),
         pressed("a, contact radius", "m", &|p| Some(p.radius)),
@@ -93,6 +97,16 @@ fn cells_of(contact: Option<&(String, ContactInfo)>) -> Vec<String> {
         pressed("normal stiffness of all", "N/m", &|p| Some(p.normal_stiffness)),
         pressed("contact resonance", "Hz", &|p| p.resonance),
     ]
+}
+
+/// Formats a damping time of a contact.
+fn damping_time(contact: &ContactInfo, value: impl Fn(&DampingInfo) -> Option<Real>) -> String {
+    contact.damping.as_ref().and_then(value).map_or(String::new(), |time| quantity(time, "s"))
+}
+
+/// Formats a number of the damping of a contact.
+fn damping(contact: &ContactInfo, value: impl Fn(&DampingInfo) -> Option<Real>) -> String {
+    contact.damping.as_ref().and_then(value).map_or(String::new(), |value| digits(value.0))
 }
 
 /// Formats a value at the start, with its range if the load varies.

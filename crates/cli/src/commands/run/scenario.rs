@@ -9,7 +9,7 @@ use stickslip_console::progress::Progress;
 use stickslip_figures::{Look, Sources};
 use stickslip_run::checkpoint::{CheckpointError, Keeper, Resumption};
 use stickslip_run::complaint::words;
-use stickslip_run::files::{CYCLES, EVENTS, INSIDES, InsideTables, SCENARIO, STEPS, SUMMARY, TRACE};
+use stickslip_run::files::{CYCLES, EVENTS, INSIDES, InsideTables, PULSES, SCENARIO, STEPS, SUMMARY, TRACE};
 use stickslip_run::folder::{Folder, is_complete, sweep};
 use stickslip_run::summary::Status;
 use stickslip_run::{Draft, Job, Outcome, Recorder, Summary, Watcher};
@@ -55,8 +55,10 @@ pub(crate) fn run(
         return Report::not_written(job, &error);
     }
     // An interrupted run may have left temporary files.
-    let names =
-        [TRACE, EVENTS, CYCLES, STEPS, SCENARIO, SUMMARY].into_iter().chain(INSIDES).map(str::to_owned);
+    let names = [TRACE, EVENTS, CYCLES, STEPS, PULSES, SCENARIO, SUMMARY]
+        .into_iter()
+        .chain(INSIDES)
+        .map(str::to_owned);
     sweep(&job.folder, &names.chain(Look::all_files()).collect::<Vec<_>>());
     let from = if let Beginning::Resumed(resumption, _) = &beginning { resumption.reached() } else { 0.0 };
     let bar = progress.start(&job.name, [from, job.scenario.plan.duration], interrupt);
@@ -112,7 +114,7 @@ pub(crate) fn write(
         None
     };
     folder.release();
-    let optional = INSIDES.into_iter().chain([CYCLES, STEPS]).map(str::to_owned);
+    let optional = INSIDES.into_iter().chain([CYCLES, STEPS, PULSES]).map(str::to_owned);
     folder.forget(optional.chain(Look::all_files()).collect());
     let names = folder.names().into_iter().chain([SUMMARY.to_owned()]).collect();
     summary.set_files(names);

@@ -71,6 +71,9 @@ impl<'a> Steady<'a> {
 impl<'a> Moving<'a> {
     pub(super) fn of(index: usize, model: &'a Model, state: &State) -> Option<Self> {
         let contact = &model.contacts[index];
+        if contact.normal_damping > 0.0 {
+            return None;
+        }
         let depth = match &contact.press {
             Press::Constant { d, reduced_force } => Depth::Constant { d: *d, reduced_force: *reduced_force },
             Press::Coupled(measure) => Depth::Coupled(Length::of(measure, model, state)?),
@@ -98,8 +101,7 @@ impl<'a> Moving<'a> {
         Some(Self { index, contact, u, depth, form, slot })
     }
 
-    /// Adds the contact forces: normal -count·E\*M(d) along d, if bodies press the contact, and tangential -count·(F_x + βG\*m u̇) along u.
-    /// The term βG\*m u̇ is the damping of sticking springs.
+    /// Adds the contact forces: normal -count·E\*M(d) along d, if bodies press the contact, and tangential -count·F_x with damping along u.
     #[inline(always)]
     pub(super) fn act<const N: usize>(
         &self,
@@ -139,10 +141,12 @@ impl<'a> Moving<'a> {
         };
         let force = if law.damping() > 0.0 {
             let (memory, law) = eq.law(self.index);
-            let damping = law.damping_force((contact, memory), &motion, force);
-            // Dissipated in sticking springs, separate from friction.
-            sums.damping += contact.count * damping * motion.du;
-            force + damping
+            let [force, damping] = law.damped((contact, memory), &motion, force);
+            // Dissipated in sticking springs, separate from friction. Steps of fixed length integrate it along their paths.
+            if eq.layout.located {
+                sums.damping += contact.count * damping * motion.du;
+            }
+            force
         } else {
             force
         };

@@ -7,10 +7,6 @@
 //! At a branch end the step is cut, at the time given by the cubic interpolant of the step. A cut step has at least one eighth of the full
 //! length, which bounds the work. A further branch end within that eighth causes an error like a kink.
 //!
-//! Where a damped contact reaches the end of its memory piece, the step is cut without this lower limit. The damping force of sticking
-//! springs can be many times the friction limit, and it vanishes when these springs slip. The number of such cuts is bounded by the number
-//! of stored reversals.
-//!
 //! A contact under a varying normal force uses no branch. Such a contact follows the full force law, with one straight path per step. Steps
 //! are cut where such a contact touches or separates, and where a slip edge starts or stops. Without these cuts, the slip memory would
 //! store a reversal with an error of second order in the step.
@@ -308,7 +304,7 @@ fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left):
     match memory.branching() {
         Some(branching) if keeps_to_branches(contact, motion) => {
             let slack = if left < NEAR * contact.natural.displacement { left.max(0.0) } else { 0.0 };
-            Law::slip(branching.branch(&contact.interface, sense, slack))
+            Law::slip(branching.branch(memory.law(&contact.interface), sense, slack))
         }
         _ => Law::whole(0.0),
     }

@@ -21,6 +21,8 @@ const KINKS: f64 = 1e-3;
 ///
 /// A tabulated normal law has bends at its points, and a tipped paraboloid has one at the end of its cone.
 const BENDS: f64 = 1e-2;
+/// Factor of the tolerance for a contact with damping along the normal, whose impacts each add an error of the energies.
+const IMPACTS: f64 = 0.1;
 /// Smallest factor on the tolerance where a free body rests on spring rows under constant normal forces.
 ///
 /// Springs slip one by one without ending a step. The factor is 1 down to [`ROWS_FROM`] and decreases with the tolerance below.
@@ -186,6 +188,8 @@ fn part(model: &Model, contact: &Contact, tolerance: f64) -> f64 {
     let passes = contact.interface.damping() > 0.0 || !contact.is_constant();
     if profile.has_kinks() || is_row && !contact.is_constant() {
         KINKS
+    } else if contact.normal_damping > 0.0 {
+        IMPACTS
     } else if passes && profile.has_bends() {
         BENDS
     } else if is_row && !contact.inert && !contact.has_lulls() && !model.free.is_empty() {
@@ -298,8 +302,7 @@ fn surge(model: &Model, state: &State) -> f64 {
 
 /// Returns an upper bound of the power that prescribed motions can put into the contacts, W.
 ///
-/// The bound is μF_N times the prescribed speed. Profiles with kinks add the damping force of all sticking springs. The bound is computed
-/// at corners only, because the speed is constant on a linear piece.
+/// The bound is μF_N times the prescribed speed. It is computed at corners only, because the speed is constant on a linear piece.
 pub(super) fn follower_power(model: &Model, state: &State) -> f64 {
     let equations = Equations::on(model, state, model.layout(), false);
     model.contacts.iter().map(|contact| power(contact, &equations, state)).sum()
@@ -310,8 +313,5 @@ fn power(contact: &Contact, equations: &Equations<'_>, state: &State) -> f64 {
     let at = Components { t: state.t, y: |i: usize| state.y[i] };
     let rate = |w: usize| equations.signal(w, &at).rate;
     let speed: f64 = contact.u.driven.iter().map(|(w, a)| a * rate(*w)).sum();
-    let kinked = contact.interface.profile().has_kinks();
-    let stuck = if kinked { contact.interface.stick_stiffness(contact.natural.depth) } else { 0.0 };
-    let damped = contact.interface.viscosity(stuck) * speed.abs();
-    contact.count * (contact.friction_limit() + damped) * speed.abs()
+    contact.count * contact.friction_limit() * speed.abs()
 }

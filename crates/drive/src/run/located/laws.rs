@@ -18,7 +18,7 @@ use crate::event::{Event, EventKind, Source};
 use crate::model::Measure;
 use crate::record::Record;
 use crate::state::State;
-use stickslip_contact::{Change, Course, Guard, Interface, Law, Memory};
+use stickslip_contact::{Change, Course, Guard, Interface, Law, Memory, Segment};
 use stickslip_stepper::{Attempt, System};
 
 /// Time step of the finite difference of ḋ, as a fraction of the waveform's duration or of the contact's 1/ω.
@@ -71,6 +71,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                     self.turn(state, c, record)?;
                 }
             }
+        } else if self.presses {
+            self.turn_damped(state, record)?;
         }
         Ok(())
     }
@@ -91,6 +93,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
+        if guard == Guard::Gap && contact.normal_damping > 0.0 {
+            return self.touch(state, c, record);
+        }
         let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
         // Rounding of time or of a large displacement may stop before the zero. The remaining length then counts as used up.
         let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
@@ -112,9 +117,106 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if kind == EventKind::LoopClosed && (broke || state.modes[c].is_gross()) {
             kind = contact.gross_slip()[0];
         }
-        self.note(state, Source::Contact(c), kind, record);
+        // A static coefficient that grows leaves the old limit line behind, whose crossing moves nothing.
+        if kind != EventKind::LoopClosed || contact.interface.growth().is_none() {
+            self.note(state, Source::Contact(c), kind, record);
+        }
         self.bounds.event(self.setting.model, state, (Source::Contact(c), kind))?;
         self.note_break(state, (c, broke, kind), record)
+    }
+
+    /// Closes a contact with damping along the normal, whose indentation jumps to d + βḋ at constant u.
+    fn touch(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
+        let contact = &self.setting.model.contacts[c];
+        self.lose_overlap(state, c, false);
+        state.modes[c] = Law::whole(0.0);
+        let motion = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]);
+        let broke = if motion.d > 0.0 {
+            self.press(state, c, motion)?;
+            self.decide(state, c)
+        } else {
+            // It closes again without speed, within the last bit.
+            let (_, course) = fired(contact, Guard::Gap, &Law::OPEN, &motion);
+            self.set_law(state, c, (course, &motion), 0.0)
+        };
+        self.note(state, Source::Contact(c), EventKind::Touch, record);
+        self.bounds.event(self.setting.model, state, (Source::Contact(c), EventKind::Touch))?;
+        self.note_break(state, (c, broke, EventKind::Touch), record)
+    }
+
+    /// Books the elastic energy of the bodies' overlap as lost when a contact with damping along the normal opens, or as regained when it
+    /// closes again. An open contact has no elastic energy.
+    pub(super) fn lose_overlap(&self, state: &mut State, c: usize, opens: bool) {
+        let contact = &self.setting.model.contacts[c];
+        let closed = Law::whole(0.0);
+        let law = std::mem::replace(&mut state.modes[c], closed);
+        let energy =
+            contact.count * self.setting.plain(state).normal_energy(contact, state.t, |i| state.y[i]);
+        state.modes[c] = law;
+        state.lost += if opens { energy } else { -energy };
+    }
+
+    /// Moves the slip memory of a contact to a motion on a straight path in zero time.
+    fn press(&mut self, state: &mut State, c: usize, to: Motion) -> Result<(), RunError> {
+        let (contact, path) = (&self.setting.model.contacts[c], Segment::Jump(to.apex()));
+        let work = state.memories[c].commit(&contact.interface, path);
+        let work = contact.count * work.map_err(|source| self.setting.model.refused(c, state.t, source))?;
+        self.ledger.note(self.setting.model, state, c, path);
+        state.friction[c] += work;
+        Ok(())
+    }
+
+    /// Presses contacts with damping along the normal by d + βḋ at the start of a run.
+    pub(super) fn press_damped(&mut self, state: &mut State) {
+        let contacts = self.setting.model.contacts.iter().filter(|contact| contact.normal_damping > 0.0);
+        for contact in contacts {
+            let motion = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]);
+            if motion.apex() != state.memories[contact.place].apex() {
+                // A motion that the memory refuses ends the run at its first step.
+                let _ = self.press(state, contact.place, motion);
+            }
+        }
+    }
+
+    /// Chooses the laws of contacts with damping along the normal anew after an event of another contact.
+    ///
+    /// The rate of d + βḋ depends on accelerations, which jump where another contact touches or breaks loose.
+    pub(super) fn turn_damped(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
+        self.turning.before.clone_from(&state.modes);
+        for c in 0..self.setting.model.contacts.len() {
+            let own = |fallen: &Fallen| matches!(fallen, Fallen::Contact(own, _) if *own == c);
+            let damped = self.setting.model.contacts[c].normal_damping > 0.0;
+            if damped && !state.modes[c].is_open() && !self.watch.fired.iter().any(own) {
+                self.turn(state, c, record)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets static friction coefficients grow up to the present time, and begins the rest of contacts that have stuck again.
+    ///
+    /// A contact whose coefficient has changed gets its law anew; all slip memories must be committed then. With `laws` false, all
+    /// contacts obey the full force law.
+    pub(super) fn grow_limits(&mut self, state: &mut State, laws: bool) {
+        if !self.jumps {
+            return;
+        }
+        for c in 0..self.setting.model.contacts.len() {
+            let law = &self.setting.model.contacts[c].interface;
+            if state.memories[c].grow(law, state.t) && laws {
+                let (course, motion) = self.next_course(state, c);
+                self.set_law(state, c, (course, &motion), 0.0);
+            }
+        }
+        self.horizon.corner = self.next_corner(state);
+    }
+
+    /// Returns the next time of a corner of a waveform, or of a growth of a static friction coefficient, s.
+    pub(super) fn next_corner(&self, state: &State) -> f64 {
+        let grows = |(contact, memory): (&Contact, &Memory)| memory.next_growth(&contact.interface);
+        let growth =
+            self.setting.model.contacts.iter().zip(&state.memories).filter(|_| self.jumps).map(grows);
+        growth.fold(state.next_corner(), f64::min)
     }
 
     /// Reports that a contact has broken loose in the instant of an event of another kind, or has stuck again in the same instant.
@@ -221,7 +323,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Reports an event only if the kind of law or the sliding direction changes.
     fn turn(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
-        if contact.is_never_pressed() || !moved_by_waveform(contact) {
+        if contact.is_never_pressed() || !(moved_by_waveform(contact) || contact.normal_damping > 0.0) {
             return Ok(());
         }
         // The law before a jump, because the jump has set other laws.
@@ -251,6 +353,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     ///
     /// Returns whether a contact with two friction coefficients has broken loose.
     pub(super) fn decide(&mut self, state: &mut State, c: usize) -> bool {
+        let (course, motion) = self.next_course(state, c);
+        let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
+        // A branch that continues in its sense keeps its starting point.
+        (!same || state.modes[c].branch().is_none()) && self.set_law(state, c, (course, &motion), 0.0)
+    }
+
+    /// Returns the course of a contact, with the direction of its motion in (d, u).
+    fn next_course(&mut self, state: &State, c: usize) -> (Course, Motion) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
@@ -258,10 +368,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if self.stands(contact, &motion) {
             (motion.dd, motion.du) = self.push(state, c, &motion);
         }
-        let course = state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du);
-        let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
-        // A branch that continues in its sense keeps its starting point.
-        (!same || state.modes[c].branch().is_none()) && self.set_law(state, c, (course, &motion), 0.0)
+        (state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du), motion)
     }
 
     /// Returns the direction in (d, u) in which a contact at rest begins to move.
@@ -324,7 +431,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             course
         };
         // Read before the law changes.
-        let was_gross = state.modes[c].is_gross();
+        let (was_gross, was_open) = (state.modes[c].is_gross(), state.modes[c].is_open());
         let kinetic = contact.interface.kinetic();
         // The commit may have passed the limit by rounding.
         let mut broke = state.memories[c].slides() != 0.0 && state.modes[c].gross() == 0.0;
@@ -348,6 +455,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             state.modes[c] = law(memory, course);
         }
         state.grew[c] = false;
+        if contact.normal_damping > 0.0 && was_open != state.modes[c].is_open() {
+            self.lose_overlap(state, c, !was_open);
+        }
         match (was_gross, state.modes[c].is_gross()) {
             (false, true) if state.step > 0.0 => state.stuck_step = state.step,
             (true, false) => state.step = state.step.min(state.stuck_step),

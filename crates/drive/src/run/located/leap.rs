@@ -142,7 +142,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         while let Some(due) = self.output.looks.due(to.t) {
             self.fill(state, due, to, &mut y);
             let memories = self.memories_at(&eq, state, due, |i| y[i]);
-            self.output.looks.show(memories.as_deref().ok(), record);
+            self.output.looks.show(self.setting.model, memories.as_deref().ok(), record);
         }
         self.output.components = y;
     }

@@ -175,10 +175,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Returns which slip memories commit at the end of the located step.
     ///
     /// All slip memories commit where laws of contacts without an event may change: at corners, at events of blocks, and in models with
-    /// quasi-static coordinates.
+    /// quasi-static coordinates or with damping along the normal.
     fn moves(&self, ending: Ending) -> Moves {
         let others = self.watch.fired.iter().any(|fallen| matches!(fallen, Fallen::Block(..)));
-        if ending == Ending::Corner || others || !self.setting.model.balanced.is_empty() {
+        let all = self.presses && !self.watch.fired.is_empty() || !self.setting.model.balanced.is_empty();
+        if ending == Ending::Corner || others || all {
             Moves::All
         } else if self.watch.fired.is_empty() {
             Moves::Open

@@ -6,8 +6,8 @@ use crate::interval::Interval;
 use crate::run::horizon::Goal;
 use crate::run::output::Opening;
 use crate::scene::{
-    Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Named, Normal, Point, Scene, Side,
-    Spring, Varying,
+    Body, Contact, ContactStart, Coordinate, Direction, EngineChoice, Named, Normal, NormalDamping, Point,
+    Scene, Side, Spring, Varying,
 };
 use crate::{Limits, Model, Plan, Shape, State, Stepper, Timing, Waveform};
 use stickslip_contact::{Interface, Material, Pair, Profile};
@@ -51,6 +51,7 @@ fn chain(shape: Shape, (contacts, damping): (&[usize], f64)) -> Option<Scene> {
                 interface: if damping > 0.0 { interface.with_damping(damping) } else { interface },
                 normal: Normal::Force(Varying::Constant(1.0 / *count as f64)),
                 gap: 0.0,
+                normal_damping: NormalDamping::None,
                 start: ContactStart::Untouched,
                 engine: EngineChoice::Curve,
                 count: 1,

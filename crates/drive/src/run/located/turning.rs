@@ -6,7 +6,7 @@
 
 use super::Located;
 use crate::RunError;
-use crate::contact::Motion;
+use crate::contact::{Contact, Motion};
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
 use crate::model::Model;
@@ -38,7 +38,8 @@ enum Jumps {
 
 impl Turning {
     pub(super) fn renewed(mut self, model: &Model) -> Self {
-        let jumps = if model.jumps() { Jumps::Possible } else { Jumps::Never };
+        let jumps = model.jumps() || model.contacts.iter().any(Contact::is_driven_normally);
+        let jumps = if jumps { Jumps::Possible } else { Jumps::Never };
         self.before.clear();
         self.before.reserve(model.contacts.len());
         self.turned.clear();
@@ -76,7 +77,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 turned.push((w, if jump { EventKind::Jump } else { EventKind::Corner }));
             }
         }
-        if turned.iter().any(|(_, kind)| *kind == EventKind::Jump) {
+        // The indentation d + βḋ jumps where the rate of a waveform jumps.
+        let presses =
+            self.presses && self.turning.jumps == Jumps::Possible && !self.turning.turned.is_empty();
+        if presses || self.turning.turned.iter().any(|(_, kind)| *kind == EventKind::Jump) {
             self.jump(state, before)?;
         }
         for i in 0..self.turning.turned.len() {
@@ -101,7 +105,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         if state.supplied.is_empty() && state.generators.is_empty() {
             return Ok(());
         }
-        self.horizon.corner = state.next_corner();
+        self.horizon.corner = self.next_corner(state);
         if self.horizon.corner > state.t || state.waits_for_input(self.setting.model) {
             return Ok(());
         }
@@ -125,6 +129,13 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.ledger.jump_blocks((self.setting.model, self.setting.layout), state)?;
         self.balance_jump(state)?;
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
+            if contact.normal_damping > 0.0 {
+                // The jump may close it.
+                if state.modes[c].is_open() {
+                    self.lose_overlap(state, c, false);
+                }
+                state.modes[c] = Law::whole(0.0);
+            }
             let to = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]).apex();
             let from = state.memories[c].apex();
             // Friction of the whole path, also where the run integrates it: there is no time to integrate over.
@@ -137,7 +148,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             friction += work;
             // The law follows the direction of the jump. Contacts that have not moved keep theirs.
             if let (Some(branching), true) = (state.memories[c].branching(), to != from) {
-                let course = branching.course(&contact.interface, to.d - from.d, to.u - from.u);
+                let course =
+                    branching.course(state.memories[c].law(&contact.interface), to.d - from.d, to.u - from.u);
                 let at = Motion { d: to.d, u: to.u, dd: to.d - from.d, du: to.u - from.u };
                 self.set_law(state, c, (course, &at), 0.0);
             }

@@ -41,10 +41,10 @@ const LONGEST: f64 = 0.1;
 const PART: f64 = 0.125;
 /// Shortest step, as a fraction of the interval of step doubling; a shorter step ends the run.
 const SHORTEST: f64 = 1e-10;
-/// Step length below which any error is accepted in a sliding mode, as a fraction of the interval of step doubling.
+/// Step length below which any error is accepted where a contact breaks loose, as a fraction of the interval of step doubling.
 ///
-/// With contact damping the law jumps between stick and slip, and shorter steps do not reduce the difference of the two results.
-const SLIDING: f64 = 1e-4;
+/// With two friction coefficients the force jumps there, and shorter steps do not reduce the difference of the two results.
+const BREAKING: f64 = 1e-4;
 
 /// Rounding error of the energy balance, relative to the size of its terms.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -92,6 +92,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets all contacts to the full force law. The data of the integrator become outdated, because half steps do not use it.
     pub(super) fn take_whole(&mut self, state: &mut State) {
         self.motion.whereabouts = Whereabouts::Behind;
+        for contact in self.setting.model.contacts.iter().filter(|contact| contact.normal_damping > 0.0) {
+            if state.modes[contact.place].is_open() {
+                self.lose_overlap(state, contact.place, false);
+            }
+        }
         state.modes.fill(Law::whole(0.0));
         state.grew.fill(false);
         self.takeoff = None;
@@ -117,9 +122,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return self.step_instant(state, (times.to, &detour), record);
         }
         let mut halves = self.halves.take().unwrap_or_else(|| Box::new(self.room(state)));
-        let slides = self.slides && h <= SLIDING * detour.length;
-        let (error, times, fall) = self.try_up_to_fall(&mut halves, state, (times, slides))?;
-        let outcome = if error <= 1.0 || slides && error.is_finite() {
+        let breaks = self.jumps && h <= BREAKING * detour.length;
+        let (error, times, fall) = self.try_up_to_fall(&mut halves, state, (times, breaks))?;
+        let outcome = if error <= 1.0 || breaks && error.is_finite() {
             state.counts.missed += u64::from(error > 1.0);
             // A step that a block has cut leaves the next step length unchanged.
             if fall.is_none() {
@@ -162,8 +167,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let corner = state.t == self.horizon.corner && !state.waits_for_input(self.setting.model);
         if corner {
             self.turn_corners(state, record)?;
-            self.turned(state);
             self.take_whole(state);
+            self.grow_limits(state, false);
+            self.turned(state);
         }
         let outcome = self.pass_blocks(state, (0, corner), record);
         self.watch.fired.clear();
@@ -345,7 +351,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         while let Some(due) = self.output.looks.due(t) {
             let memories = self.memories_at(&eq, state, due, |i| half.value(i, due));
-            self.output.looks.show(memories.as_deref().ok(), record);
+            self.output.looks.show(self.setting.model, memories.as_deref().ok(), record);
         }
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let path = chord(&self.setting.plain(state), contact, t, y);

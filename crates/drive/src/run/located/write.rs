@@ -73,7 +73,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         self.output.tell_turns(eq, state, t, at, record);
         while let Some(due) = self.output.looks.due(t) {
             let memories = self.memories_at(eq, state, due, |i| self.motion.component(i, due));
-            self.output.looks.show(memories.as_deref().ok(), record);
+            self.output.looks.show(self.setting.model, memories.as_deref().ok(), record);
         }
         // Evaluations for output do not belong to the run.
         self.output.evaluations += self.motion.solver.evaluations() - asked;

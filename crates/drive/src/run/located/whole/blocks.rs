@@ -57,16 +57,16 @@ impl Looked {
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Attempts a step. If a block has an event inside the step, attempts a second step that ends at this event.
     ///
-    /// Returns the error and the times of the last attempt, and the event. With `slides`, any finite error of the step is accepted.
+    /// Returns the error and the times of the last attempt, and the event. With `breaks`, any finite error of the step is accepted.
     pub(super) fn try_up_to_fall(
         &mut self,
         halves: &mut Halves,
         state: &mut State,
-        (times, slides): (Times, bool),
+        (times, breaks): (Times, bool),
     ) -> Result<(f64, Times, Option<Fall>), RunError> {
         let error = self.try_halves(halves, state, times)?;
         // A rejected step gives no event time.
-        let refused = error.is_nan() || error > if slides { f64::MAX } else { 1.0 };
+        let refused = error.is_nan() || error > if breaks { f64::MAX } else { 1.0 };
         if self.setting.model.blocks.is_empty() || refused {
             return Ok((error, times, None));
         }
