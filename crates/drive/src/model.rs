@@ -188,9 +188,11 @@ impl Model {
         self.waveforms.iter().any(Waveform::has_jumps)
     }
 
-    /// Returns the gross slip displacement u_c (m) of contact `index` and the normal force of one contact (N), both at t = 0.
+    /// Returns the gross slip displacement u_c (m) of contact `index` and the normal force of one contact (N), both at t = 0. `None` for
+    /// asperities without a highest one.
     pub fn contact_scale(&self, index: usize) -> Option<(f64, f64)> {
-        let contact = self.contacts.get(index)?;
+        let endless = |contact: &&Contact| contact.interface.profile().endless_scale().is_some();
+        let contact = self.contacts.get(index).filter(|contact| !endless(contact))?;
         let d = self.indentation(contact);
         Some((contact.interface.gross_slip_displacement(d), contact.interface.normal_force(d)))
     }

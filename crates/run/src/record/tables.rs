@@ -12,6 +12,7 @@ use crate::steps_table::StepsTable;
 use crate::table::Table;
 use std::fs::File;
 use std::io;
+use stickslip_measure::pulses::Pulses;
 use tempfile::NamedTempFile;
 
 /// Maximum number of tables.
@@ -24,7 +25,7 @@ pub(super) struct Tables<'a> {
     pub(super) cycles: CyclesTable,
     /// Table of steps. `None` if no steps are written.
     pub(super) steps: Option<StepsTable>,
-    /// Table of pulses. `None` if no steps are written.
+    /// Table of pulses. `None` if no steps are written, or without a burst or a sequence.
     pub(super) pulses: Option<PulsesTable>,
     pub(super) insides: Insides<'a>,
     /// Reserved disk space for the last block of each table.
@@ -70,7 +71,7 @@ impl<'a> Tables<'a> {
             } else {
                 None
             },
-            pulses: if job.scenario.written.steps {
+            pulses: if job.scenario.written.steps && Pulses::of(job).is_some() {
                 Some(PulsesTable::new(folder.draft(PULSES)?))
             } else {
                 None
