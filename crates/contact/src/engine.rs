@@ -306,18 +306,27 @@ impl Memory {
     /// Returns the force F_x of a damped contact for the motion at the end of a path, and the damping force in it, N.
     ///
     /// Every spring carries G\*(s + βu̇), limited to its friction limit, where s is its elastic stretch. The damping force is F_x minus
-    /// the elastic force and opposes the motion. A row has straight paths only. `elastic` is the elastic force, N, if the caller
-    /// knows it.
-    pub fn damped(&self, law: &Interface, since: Since, at: &Motion, elastic: Option<f64>) -> [f64; 2] {
+    /// the elastic force and opposes the motion. A row has straight paths only. `elastic` is the elastic force of the
+    /// caller's law, N, and `known` whether it is that of the memory.
+    pub fn damped(
+        &self,
+        law: &Interface,
+        since: Since,
+        at: &Motion,
+        (elastic, known): (f64, bool),
+    ) -> [f64; 2] {
         let law = law.kinetic().filter(|_| self.slides() != 0.0).unwrap_or_else(|| self.law(law));
         let ahead = |lead: f64| match self {
             Self::Curve(curve) => curve.ahead(law, since, at, lead),
             Self::Row(SpringRow { row, springs }) => row.ahead(springs, law, at.apex(), lead),
         };
-        let lead = if at.d > 0.0 { law.damping() * at.du } else { 0.0 };
-        let elastic = elastic.unwrap_or_else(|| ahead(0.0));
-        let force = if lead == 0.0 { elastic } else { ahead(lead) };
-        [force, force - elastic]
+        let lead = law.damping() * at.du;
+        if lead == 0.0 || at.d <= 0.0 {
+            return [elastic, 0.0];
+        }
+        let damped = ahead(lead);
+        // Without rounding the force is `damped`.
+        [elastic + (damped - elastic), damped - if known { elastic } else { ahead(0.0) }]
     }
 
     /// Returns force, energies and state at the end of a straight path, including the friction work.

@@ -139,7 +139,7 @@ impl Law {
             Form::Grow => (Since::Growth(elastic), true),
             Form::Whole { .. } => (Since::Chord, true),
         };
-        memory.damped(site.interface(), since, motion, known.then_some(elastic))
+        memory.damped(site.interface(), since, motion, (elastic, known))
     }
 
     /// Returns the time derivatives of the states of a contact that may grow in full stick.

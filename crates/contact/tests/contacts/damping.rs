@@ -28,7 +28,7 @@ fn engines(law: &Interface, count: usize) -> [Memory; 2] {
 /// Force of a damped contact after a straight path.
 fn damped(law: &Interface, memory: &Memory, at: &Motion) -> f64 {
     let elastic = memory.force(law, at.apex());
-    memory.damped(law, Since::Chord, at, Some(elastic))[0]
+    memory.damped(law, Since::Chord, at, (elastic, true))[0]
 }
 
 /// At constant load F is the first loading (4.30) at the displacement u + βu̇: F = μF_N(1 - (1 - (u + βu̇)/u_c)^{3/2}).
@@ -51,10 +51,10 @@ fn nothing_that_rests_is_damped() {
     let rest = Motion { d: DEPTH, u: 20e-9, dd: 0.0, du: 0.0 };
     let moving = Motion { du: 1e-3, ..rest };
     for memory in engines(&law(BETA), 64) {
-        assert_eq!(memory.damped(&law(BETA), Since::Chord, &rest, None)[1], 0.0);
-        assert_eq!(memory.damped(&law(0.0), Since::Chord, &moving, None)[1], 0.0);
+        assert_eq!(memory.damped(&law(BETA), Since::Chord, &rest, (0.0, true))[1], 0.0);
+        assert_eq!(memory.damped(&law(0.0), Since::Chord, &moving, (0.0, true))[1], 0.0);
         let open = Motion { d: -1e-9, ..moving };
-        assert_eq!(memory.damped(&law(BETA), Since::Chord, &open, None)[1], 0.0);
+        assert_eq!(memory.damped(&law(BETA), Since::Chord, &open, (0.0, true))[1], 0.0);
     }
 }
 
@@ -119,7 +119,7 @@ fn a_curved_growth_is_followed() {
         let at = if lead < 0.0 { Motion { dd: 0.0, ..at } } else { at };
         let exact = fine.force(&own, Apex { d: end.d, u: end.u + lead });
         let elastic = force;
-        let found = start.damped(&own, Since::Growth(force), &at, Some(elastic))[0];
+        let found = start.damped(&own, Since::Growth(force), &at, (elastic, true))[0];
         let allowed = if lead < 0.0 { 2e-2 } else { 1e-6 };
         assert_relative_eq!(found, exact, epsilon = allowed * MU * law.normal_force(DEPTH));
     }

@@ -126,11 +126,10 @@ fn a_fast_flyback_and_much_damping_make_the_drive_ideal() {
     let short = [4e-5, 8e-5, 16e-5, 32e-5].map(|beta| {
         let motion = Motion::of(&drive(100e-9, 2e-8, 0.0, beta), &event(1e-9, 8.0 * PERIOD));
         let short = 1.0 - motion.step() / (100e-9 - ZERO_STEP);
-        println!("β = {beta:e} s: {short:.2e} of the ideal step missing");
+        println!("β = {beta:e} s: {short:.5} of the ideal step missing");
         short
     });
-    // Below 1e-5 only the error of the runs remains.
-    assert!(short.windows(2).all(|w| w[1] < w[0].max(1e-5)) && short[3].abs() < 1e-5);
+    assert!(short.windows(2).all(|w| w[1] < w[0]) && short[3].abs() < 3e-3);
 }
 
 /// In a flyback of 0.1 ns rounding of time exceeds the tolerance of displacement and work. The drive moves as with a jump, up to

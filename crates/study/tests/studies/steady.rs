@@ -63,7 +63,9 @@ fn settles_on_with((name, set): (&str, &[(&str, &str)]), periods: u32, tolerance
     let plan = plan_at(&job, tolerance);
     let waited = last_steps(&job, (&plan, job.model.start(&plan)?), found.period, periods)?;
     let off = (found.step.ok_or("a step")? - waited).abs() / job.contact_scale(0).0;
-    assert!(off <= 1e-10, "{name}: {off:e} u_c");
+    // The edge at which damping is limited is not located, so that a step has an error of 10⁻⁹ u_c.
+    let within = if (0..job.model.contacts().count()).any(|c| job.is_damped(c)) { 1e-9 } else { 1e-10 };
+    assert!(off <= within, "{name}: {off:e} u_c");
     Ok(())
 }
 
