@@ -129,7 +129,8 @@ fn a_fast_flyback_and_much_damping_make_the_drive_ideal() {
         println!("β = {beta:e} s: {short:.5} of the ideal step missing");
         short
     });
-    assert!(short.windows(2).all(|w| w[1] < w[0]) && short[3].abs() < 3e-3);
+    // Below 1e-5 only the error of the runs remains.
+    assert!(short.windows(2).all(|w| w[1] < w[0].max(1e-5)) && short[3].abs() < 3e-3);
 }
 
 /// In a flyback of 0.1 ns rounding of time exceeds the tolerance of displacement and work. The drive moves as with a jump, up to
