@@ -207,17 +207,16 @@ impl SceneFault {
             | Self::BalancedTogether
             | Self::Unbalanceable(_)
             | Self::Unbalanced { .. } => self.advice_on_balance(),
-            Self::InsideStop(_) | Self::StopOrder { .. } | Self::UndampedLoad | Self::Restitution(_) => {
-                self.advice_on_impacts()
-            }
-            Self::Unmoved => {
-                "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
-            }
+            Self::InsideStop(_)
+            | Self::StopOrder { .. }
+            | Self::UndampedLoad
+            | Self::Restitution(_)
+            | Self::Unmoved
+            | Self::Open => self.advice_on_impacts(),
             Self::Loading(FirstLoadingError::Undetermined) => "give the normal force or the indentation",
             Self::Loading(FirstLoadingError::BeyondProfile { .. }) => {
                 "reduce the load, or increase the radius or the range of the profile"
             }
-            Self::Open => "press it at t = 0, or leave it \"untouched\"",
             Self::Springs(_) | Self::Narrow { .. } => {
                 "leave the span out: the row then covers the largest contact"
             }
@@ -251,6 +250,10 @@ impl SceneFault {
     /// Returns a text that suggests a remedy for a fault of a stop or of the damping along a normal.
     fn advice_on_impacts(&self) -> &'static str {
         match self {
+            Self::Unmoved => {
+                "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
+            }
+            Self::Open => "press it at t = 0, or leave it \"untouched\"",
             Self::InsideStop(_) => "move the stop, or let the body start between the stops",
             Self::StopOrder { .. } => "the first position is the lowest one; null means no stop",
             Self::UndampedLoad => "remove the damping along the normal, or make \"normal\" \"coupled\"",
