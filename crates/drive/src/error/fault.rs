@@ -212,21 +212,19 @@ impl SceneFault {
             | Self::UndampedLoad
             | Self::Restitution(_)
             | Self::Unmoved
-            | Self::Open => self.advice_on_impacts(),
-            Self::Loading(FirstLoadingError::Undetermined) => "give the normal force or the indentation",
-            Self::Loading(FirstLoadingError::BeyondProfile { .. }) => {
-                "reduce the load, or increase the radius or the range of the profile"
+            | Self::Open
+            | Self::Springs(_)
+            | Self::Narrow { .. }
+            | Self::DampedJump(_)
+            | Self::UnlocatedJump
+            | Self::Settling(_) => self.advice_on_impacts(),
+            Self::Loading(FirstLoadingError::Undetermined | FirstLoadingError::BeyondProfile { .. }) => {
+                self.advice_on_impacts()
             }
-            Self::Springs(_) | Self::Narrow { .. } => {
-                "leave the span out: the row then covers the largest contact"
-            }
-            Self::DampedJump(_) => "give the waveform a flyback above 0",
-            Self::UnlocatedJump => "use the stepper `event`, or a waveform with a flyback above 0 s",
             Self::Unstable { .. } => {
                 "use a twentieth of this limit for accuracy, or the stepper event, which needs no time step"
             }
             Self::TooManyFree { .. } | Self::BlockInEquilibrium => "give the start positions of the bodies",
-            Self::Settling(_) => "give the row a larger span, or use the engine \"curve\"",
             Self::NoEquilibrium { axis: Axis::Z, .. } => {
                 "reduce the load, increase the normal force, or start from rest; the first body in \
                  \"between\" of a coupled contact is the lower one"
@@ -250,6 +248,16 @@ impl SceneFault {
     /// Returns a text that suggests a remedy for a fault of a stop or of the damping along a normal.
     fn advice_on_impacts(&self) -> &'static str {
         match self {
+            Self::DampedJump(_) => "give the waveform a flyback above 0",
+            Self::UnlocatedJump => "use the stepper `event`, or a waveform with a flyback above 0 s",
+            Self::Settling(_) => "give the row a larger span, or use the engine \"curve\"",
+            Self::Loading(FirstLoadingError::Undetermined) => "give the normal force or the indentation",
+            Self::Loading(FirstLoadingError::BeyondProfile { .. }) => {
+                "reduce the load, or increase the radius or the range of the profile"
+            }
+            Self::Springs(_) | Self::Narrow { .. } => {
+                "leave the span out: the row then covers the largest contact"
+            }
             Self::Unmoved => {
                 "make z of one of the bodies \"free\", or give the contact a normal \"force\" or \"indentation\""
             }
