@@ -177,21 +177,17 @@ impl<'a> Equations<'a> {
 
     /// Returns the elastic energy of the normal deformation of one contact, J.
     ///
-    /// With damping along the normal it is that of the distance d of the bodies, and 0 while the contact is open.
+    /// With damping along the normal it is that of the distance d of the bodies, and 0 while bodies that press each other are apart.
     pub(crate) fn normal_energy(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> f64 {
-        if contact.normal_damping > 0.0 && self.modes[contact.place].is_open() {
-            return 0.0;
-        }
-        contact.interface.normal_energy(self.overlap(contact, t, y))
-    }
-
-    /// Returns the distance d of the bodies of a contact, m: without damping along the normal the indentation.
-    fn overlap(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> f64 {
-        match &contact.press {
+        let d = match &contact.press {
+            Press::Coupled(_) if contact.normal_damping > 0.0 && self.modes[contact.place].is_open() => {
+                return 0.0;
+            }
             Press::Coupled(measure) => self.length(measure, &Components { t, y }),
             Press::Indentation(w) => self.sample(*w, t).value,
             _ => self.pressed(contact, t).0,
-        }
+        };
+        contact.interface.normal_energy(d)
     }
 
     /// Returns indentation d and displacement u of a contact, m, without rates.

@@ -58,9 +58,19 @@ impl Equations<'_> {
                 }
                 (depth, d.rate, reduced_force)
             }
-            _ => {
+            press => {
                 let (d, dd) = self.pressed(contact, at.time());
-                (d, dd, contact.interface.reduced_force(d))
+                let reduced_force = contact.interface.reduced_force(d);
+                if let (Press::Indentation(w), true) = (press, contact.normal_damping > 0.0 && !law.is_open())
+                {
+                    let Sample { value, rate, .. } = self.sample(*w, at.time());
+                    let elastic = contact.interface.normal_force(value);
+                    let force = contact.interface.normal_modulus() * reduced_force - elastic;
+                    // The source of the motion does this work, too.
+                    sum.damping += contact.count * force * rate;
+                    sum.input += contact.count * force * rate;
+                }
+                (d, dd, reduced_force)
             }
         };
         let motion = Motion { d, u: u.value, dd, du: u.rate };

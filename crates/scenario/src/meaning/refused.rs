@@ -195,11 +195,17 @@ fn beyond_profile(scene: &Scene, path: &KeyPath, error: &SceneError) -> Option<F
             "the last point of its profile",
             "the contact circle must be smaller than the known range of the profile",
         )
-    } else {
+    } else if interface.profile().has_shape() {
         (
             "less than",
             "the sphere's equator",
             "in half-space theory, the contact circle is much smaller than the sphere",
+        )
+    } else {
+        (
+            "less than",
+            "the plane below all tips",
+            "increase the number of tips, their heights or their radius",
         )
     };
     let message =

@@ -145,7 +145,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     }
 
     /// Books the elastic energy of the bodies' overlap as lost when a contact with damping along the normal opens, or as regained when it
-    /// closes again. An open contact has no elastic energy.
+    /// closes again.
+    ///
+    /// An open contact has no elastic energy. The elastic energy of a prescribed indentation is also part of the input, which an open
+    /// contact does not take back.
     pub(super) fn lose_overlap(&self, state: &mut State, c: usize, opens: bool) {
         let contact = &self.setting.model.contacts[c];
         let closed = Law::whole(0.0);
@@ -153,7 +156,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let energy =
             contact.count * self.setting.plain(state).normal_energy(contact, state.t, |i| state.y[i]);
         state.modes[c] = law;
-        state.lost += if opens { energy } else { -energy };
+        let energy = if opens { energy } else { -energy };
+        state.lost += energy;
+        if contact.coupling().is_none() {
+            state.jumps += energy;
+        }
     }
 
     /// Moves the slip memory of a contact to a motion on a straight path in zero time.
