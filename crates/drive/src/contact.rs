@@ -9,13 +9,10 @@ mod component;
 use crate::model::Measure;
 use crate::{EventKind, Piece, Sample};
 pub(crate) use stickslip_contact::Motion;
-use stickslip_contact::{Course, Engine, Guard, Interface, Law, Load, Lull, Scale, Site};
+use stickslip_contact::{Course, Engine, Guard, Interface, Law, Load, Lull, Memory, Scale, Site};
 
 /// Largest number of springs of a discretised contact whose slip and touch events end steps. The cost grows with its square.
 const MOST_SPRINGS: usize = 8192;
-
-/// Distance of the bodies below which a contact counts as touching, in natural depths.
-const TOUCH: f64 = 1e-12;
 
 /// Relative rounding error of a few units in the last place.
 pub(crate) const PLACES: f64 = 8.0 * f64::EPSILON;
@@ -131,14 +128,14 @@ impl Contact {
     /// Returns the indentation that presses the contact, m, from the distance d (m) of the bodies and its rate (m/s): d + βḋ.
     ///
     /// A contact closes where d = 0, and opens and closes again where d + βḋ = 0. For an open contact the result is the smaller of both.
-    /// A contact under the full force law is open where d < 0.
+    /// Under the full force law the contact is open where d < 0, unless its memory shows that it has closed: rounding may put the touch there.
     #[inline]
-    pub(crate) fn damped(&self, [d, rate]: [f64; 2], law: &Law) -> f64 {
+    pub(crate) fn damped(&self, [d, rate]: [f64; 2], (memory, law): (&Memory, &Law)) -> f64 {
         if self.normal_damping == 0.0 {
             return d;
         }
         let depth = d + self.normal_damping * rate;
-        let open = law.is_open() || law.is_whole() && d < -TOUCH * self.natural.depth;
+        let open = law.is_open() || law.is_whole() && d < 0.0 && memory.apex().d <= 0.0;
         if open { d.min(depth) } else { depth }
     }
 
@@ -203,31 +200,9 @@ impl Contact {
         power > 1.0 && power < 2.0
     }
 
-    /// Returns whether an ordinary step to lift-off is as accurate as a graded one: for F_N ∝ dᵖ with p ≥ 2, or p ≥ 3 with damping.
+    /// Returns whether an ordinary step to lift-off is as accurate as a graded one: for F_N ∝ dᵖ with p ≥ 2.
     pub(crate) fn fades_evenly(&self) -> bool {
-        let damped = if self.is_damped() { 1.0 } else { 0.0 };
-        self.interface.profile().first_power() - damped >= 2.0
-    }
-
-    /// Returns the error of a graded step to lift-off, in units of the tolerance. `told` is the error estimate of the step. The function
-    /// `left` returns the indentation at the start of the step in natural lengths, and the tolerance of a velocity in natural velocities.
-    ///
-    /// The damping force is proportional to d to the power p - 1 if the normal force has the power p. Stages placed in the square root of
-    /// time resolve this force only for multiples of 1/2. Otherwise the error is about βω·leftᵖ, even if the estimate is small.
-    // The factors 1 to 30 and 2e-4 were fitted to measured errors of steps of 0.05 to 0.8 rad.
-    pub(crate) fn missed(&self, told: f64, left: impl FnOnce() -> (f64, f64)) -> f64 {
-        let (power, fading) = (self.interface.profile().first_power(), self.fading());
-        let crowded = told * (100.0 * fading).clamp(1.0, 30.0);
-        if fading == 0.0 || (2.0 * power).fract() == 0.0 {
-            return crowded;
-        }
-        let (left, allowed) = left();
-        crowded.max(2e-4 * fading * math::powf(left, power) / allowed)
-    }
-
-    /// Returns βω: the damping force at the natural velocity, relative to the natural force; 0 without damping.
-    pub(crate) fn fading(&self) -> f64 {
-        self.interface.damping() * self.natural.frequency
+        self.interface.profile().first_power() >= 2.0
     }
 
     /// Returns the kinds of events at which gross slip begins and ends.

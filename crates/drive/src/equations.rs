@@ -164,7 +164,7 @@ impl<'a> Equations<'a> {
     #[inline(never)]
     fn damped(&self, contact: &Contact, measure: &Measure, at: &impl View) -> (f64, f64) {
         let d = self.read(measure, at);
-        let depth = contact.damped([d.value, d.rate], &self.modes[contact.place]);
+        let depth = contact.damped([d.value, d.rate], self.law(contact.place));
         if depth == d.value {
             return (d.value, d.rate);
         }
@@ -183,11 +183,24 @@ impl<'a> Equations<'a> {
             Press::Coupled(_) if contact.normal_damping > 0.0 && self.modes[contact.place].is_open() => {
                 return 0.0;
             }
-            Press::Coupled(measure) => self.length(measure, &Components { t, y }),
-            Press::Indentation(w) => self.sample(*w, t).value,
-            _ => self.pressed(contact, t).0,
+            _ => self.distance(contact, t, y)[0],
         };
         contact.interface.normal_energy(d)
+    }
+
+    /// Returns the indentation of a contact without damping along the normal, d (m), and its rate (m/s).
+    pub(crate) fn distance(&self, contact: &Contact, t: f64, y: impl Fn(usize) -> f64) -> [f64; 2] {
+        match &contact.press {
+            Press::Coupled(measure) => {
+                let Reading { value, rate, .. } = self.read(measure, &Components { t, y });
+                [value, rate]
+            }
+            Press::Indentation(w) => {
+                let Sample { value, rate, .. } = self.sample(*w, t);
+                [value, rate]
+            }
+            _ => self.pressed(contact, t).into(),
+        }
     }
 
     /// Returns indentation d and displacement u of a contact, m, without rates.
@@ -197,7 +210,7 @@ impl<'a> Equations<'a> {
         let d = match contact.coupling() {
             Some(measure) if contact.normal_damping > 0.0 => {
                 let d = self.read(measure, &at);
-                contact.damped([d.value, d.rate], &self.modes[contact.place])
+                contact.damped([d.value, d.rate], self.law(contact.place))
             }
             Some(measure) => self.length(measure, &at),
             None => self.pressed(contact, t).0,
@@ -218,7 +231,7 @@ impl<'a> Equations<'a> {
             Press::Constant { d, .. } => (*d, 0.0),
             Press::Indentation(w) if contact.normal_damping > 0.0 => {
                 let Sample { value, rate, acceleration } = self.sample(*w, t);
-                let depth = contact.damped([value, rate], &self.modes[contact.place]);
+                let depth = contact.damped([value, rate], self.law(contact.place));
                 let bend = if depth == value { 0.0 } else { contact.normal_damping * acceleration };
                 (depth, rate + bend)
             }

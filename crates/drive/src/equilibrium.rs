@@ -90,9 +90,8 @@ impl Model {
         // The work of normal loads and weight is computed from the state; its initial value is subtracted.
         let varying = self.contacts.iter().filter(|c| c.press.waveform().is_some());
         let equations = self.equations(state);
-        let pressed = |c: &Contact| c.interface.normal_energy(equations.pressed(c, state.t).0);
-        state.jumps = -varying.map(|c| c.count * pressed(c)).sum::<f64>()
-            - self.lifted(|i| state.shifts[i] + state.y[i]);
+        let stored = |c: &Contact| c.count * equations.normal_energy(c, state.t, |i| state.y[i]);
+        state.jumps = -varying.map(stored).sum::<f64>() - self.lifted(|i| state.shifts[i] + state.y[i]);
         // Uses the last column of a record row, so that the balance is exactly closed at the start.
         record::fill(&self.equations(state), state, state.t, &|i| state.y[i], row);
         // The balance error of the row is minus the stored energy.

@@ -40,7 +40,7 @@ impl Equations<'_> {
         let (d, dd, reduced_force) = match &contact.press {
             Press::Coupled(measure) => {
                 let d = self.read(measure, at);
-                let depth = contact.damped([d.value, d.rate], law);
+                let depth = contact.damped([d.value, d.rate], (&self.memories[c], law));
                 let reduced_force = match law.lull() {
                     Some(lull) => lull.reduced_force(depth),
                     None => contact.interface.reduced_force(depth),
@@ -119,7 +119,7 @@ impl Equations<'_> {
         };
         let (d, u) = (self.read(measure, at), self.read(&contact.u, at));
         let bend = self.acceleration(measure, at, |i| dv[i]);
-        let depth = contact.damped([d.value, d.rate], law);
+        let depth = contact.damped([d.value, d.rate], self.law(c));
         let dd = d.rate + contact.normal_damping * bend;
         let motion = Motion { d: depth, u: u.value, dd, du: u.rate };
         let force =

@@ -1,13 +1,13 @@
 //! Impacts of a sphere on a plane.
 
 use crate::lottery::Draw;
-use crate::parts::{column, end, event, fitted_order, named, plan, trace};
+use crate::parts::{column, end, event, fitted_order, follower, named, plan, trace, wave};
 use stickslip_contact::{Interface, Pair, Profile};
 use stickslip_drive::scene::{
     Axis, Body, Contact, ContactStart, Coordinate, EngineChoice, Freedom, Gravity, Normal, NormalDamping,
-    Point, Scene, Side,
+    Point, Scene, Side, Varying,
 };
-use stickslip_drive::{EventKind, Model, State, Stepper};
+use stickslip_drive::{EventKind, Model, Shape, State, Stepper};
 
 /// Radius, mass, friction and approach velocity of the ball; the results do not depend on them.
 const RADIUS: f64 = 0.01;
@@ -207,6 +207,55 @@ fn an_oblique_damped_impact_is_that_of_rows_and_of_fixed_steps() {
         assert!((exact.0 - fine.0).abs() < 1e-4 && (exact.0 - row.0).abs() < 2e-3);
         assert!((exact.0 - fine.0).abs() < 0.6 * (exact.0 - coarse.0).abs() + 1e-6);
         assert!(exact.1 < 1e-8, "{exact:?}");
+    }
+}
+
+/// A damped punch that falls without weight rebounds alike from 100 heights, of which some put the touch before d = 0 by rounding.
+#[test]
+fn a_damped_impact_does_not_depend_on_the_height_of_the_fall() {
+    let rebounds = (0..100).map(|k| {
+        let mut scene = ball(like(0.3), 2.0);
+        let height = 1e-6 * (1.0 + 0.37 * f64::from(k));
+        scene.bodies[0].part.z.position = height;
+        let part = &mut scene.contacts[0].part;
+        *part = crate::parts::of_profile(Profile::flat(1e-4).unwrap(), part);
+        part.normal_damping = NormalDamping::Restitution { coefficient: 0.5, speed: SPEED };
+        let (model, state, trace) = trace(&scene, &event(1e-10, height / SPEED + 1e-2), 1e-4);
+        let worst =
+            column(&model, &trace, "energy.error_J").iter().fold(0.0_f64, |most, e| most.max(e.abs()));
+        assert!(worst < 1e-7 * 0.5 * MASS * SPEED * SPEED, "{height:e}: {worst:e}");
+        [Axis::X, Axis::Z].map(|axis| state.coordinate(&model, 0, axis).unwrap().1 / SPEED)
+    });
+    let rebounds: Vec<[f64; 2]> = rebounds.collect();
+    for rebound in &rebounds {
+        assert!((0..2).all(|i| (rebound[i] - rebounds[0][i]).abs() < 1e-7), "{rebound:?} {:?}", rebounds[0]);
+    }
+}
+
+/// A prescribed triangle of the indentation costs (8/15)E\*√R [(D + βv)^{5/2} - (βv)^{5/2} - (D - βv)^{5/2}] each period.
+#[test]
+fn a_prescribed_indentation_pays_for_its_damping() {
+    const DEPTH: f64 = 2e-7;
+    const PERIOD: f64 = 7e-4;
+    const BETA: f64 = 2e-5;
+    let mut scene = ball(like(0.3), 0.0);
+    scene.waveforms = vec![wave("press", Shape::Triangle { stroke: DEPTH }, PERIOD)];
+    scene.bodies = vec![named("ball", Body { mass: None, ..follower(0) })];
+    scene.bodies[0].part.x = Coordinate::default();
+    let part = &mut scene.contacts[0].part;
+    (part.normal, part.normal_damping) =
+        (Normal::Indentation(Varying::Follows(0)), NormalDamping::Time(BETA));
+    let lead = BETA * 2.0 * DEPTH / PERIOD;
+    let powers = [DEPTH + lead, lead, DEPTH - lead].map(|d| d.powf(2.5));
+    let cycle = 8.0 / 15.0 * MODULUS * RADIUS.sqrt() * (powers[0] - powers[1] - powers[2]);
+    for tolerance in [1e-6, 1e-9] {
+        let (model, _, trace) = trace(&scene, &event(tolerance, 10.0 * PERIOD), 0.1 * PERIOD);
+        let [input, damping, error] = ["input", "damping", "error"]
+            .map(|name| *column(&model, &trace, &format!("energy.{name}_J")).last().unwrap());
+        for work in [input, damping] {
+            assert!((work / (10.0 * cycle) - 1.0).abs() < 1e-3 * tolerance.sqrt(), "{work} {cycle}");
+        }
+        assert!(error.abs() < 1e-6 * cycle, "{error} {cycle}");
     }
 }
 

@@ -129,13 +129,17 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn touch(&mut self, state: &mut State, c: usize, record: &mut dyn Record) -> Result<(), RunError> {
         let contact = &self.setting.model.contacts[c];
         self.lose_overlap(state, c, false);
+        let eq = self.setting.plain(state);
+        let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
+        // Rounding may end the step before d = 0, where the full force law is still open.
+        let [d, rate] = eq.distance(contact, state.t, |i| state.y[i]);
+        motion.d = d + contact.normal_damping * rate;
         state.modes[c] = Law::whole(0.0);
-        let motion = self.setting.plain(state).motion(contact, state.t, |i| state.y[i]);
         let broke = if motion.d > 0.0 {
             self.press(state, c, motion)?;
             self.decide(state, c)
         } else {
-            // It closes again without speed, within the last bit.
+            // The contact closes again where d + βḋ = 0, without a jump.
             let (_, course) = fired(contact, Guard::Gap, &Law::OPEN, &motion);
             self.set_law(state, c, (course, &motion), 0.0)
         };

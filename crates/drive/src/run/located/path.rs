@@ -27,13 +27,6 @@ pub(super) const FINEST_PIECES: f64 = 1024.0;
 ///
 /// The force at both ends of a piece is exact. The bend matters only if a slip edge later stops inside the piece.
 const BEND: f64 = 100.0;
-/// Largest product of βω and the bend of a piece, in tolerances of u_c, if stuck springs are damped.
-///
-/// When a slip edge later moves back along the path, the damping force depends on the position of the edge. The committed piece, and not
-/// the state, determines that position.
-const DAMPED_BEND: f64 = 1.0;
-/// Smallest limit of the bend of a piece under strong damping, in tolerances of u_c.
-const LEAST_DAMPED_BEND: f64 = 0.1;
 
 /// Number of straight pieces per step that are reported to a record that requests paths.
 const BENDS: u32 = 8;
@@ -183,7 +176,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
     /// Divides the path of a contact growing in full stick into pieces, up to a time and a motion inside the step.
     ///
     /// The path comes from the dense output. The bend of a piece decreases with the square of the number of pieces. A path whose middle is
-    /// δ from the chord thus gets √(δ/allowed) pieces, limited by [`pieces`]. The allowed bend follows from [`BEND`] and [`DAMPED_BEND`].
+    /// δ from the chord thus gets √(δ/allowed) pieces, limited by [`pieces`]. The allowed bend is [`BEND`].
     ///
     /// For the first piece, `joins` states whether it continues earlier growth without a corner, so that collinear pieces can be merged.
     pub(super) fn trace(
@@ -203,8 +196,7 @@ impl<A: for<'q> Attempt<Equations<'q>>> Growth<'_, '_, A> {
         let chord = from.u + (to.u - from.u) * (middle.d - from.d) / (to.d - from.d);
         let bend = (middle.u - chord).abs() / contact.natural.displacement;
         // A path at constant d has no slope in d; one piece is sufficient.
-        let allowed = (DAMPED_BEND / contact.fading()).clamp(LEAST_DAMPED_BEND, BEND);
-        let pieces = if bend.is_finite() { pieces(bend, allowed * self.tolerance) } else { 1.0 };
+        let pieces = if bend.is_finite() { pieces(bend, BEND * self.tolerance) } else { 1.0 };
         let mut joins = self.state.grew[c];
         for k in 1..=pieces as u32 {
             let share = f64::from(k) / pieces;
