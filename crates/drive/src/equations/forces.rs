@@ -37,42 +37,7 @@ impl Equations<'_> {
     fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let (contact, law) = (&self.model.contacts[c], &self.modes[c]);
         let u = self.read(&contact.u, at);
-        let (d, dd, reduced_force) = match &contact.press {
-            Press::Coupled(measure) => {
-                let d = self.read(measure, at);
-                let depth = contact.damped([d.value, d.rate], (&self.memories[c], law));
-                let reduced_force = match law.lull() {
-                    Some(lull) => lull.reduced_force(depth),
-                    None => contact.interface.reduced_force(depth),
-                };
-                // An open contact exerts no force, even beyond the touch that ends the step.
-                let mut press = 0.0;
-                if !law.is_open() {
-                    // M(d) serves both normal force and branch.
-                    press = contact.count * (contact.interface.normal_modulus() * reduced_force);
-                    sum.apply(&measure.free, d.driven, -press);
-                }
-                if contact.normal_damping > 0.0 && !law.is_open() {
-                    // The elastic energy is that at d.
-                    sum.damping += (press - contact.count * contact.interface.normal_force(d.value)) * d.rate;
-                }
-                (depth, d.rate, reduced_force)
-            }
-            press => {
-                let (d, dd) = self.pressed(contact, at.time());
-                let reduced_force = contact.interface.reduced_force(d);
-                if let (Press::Indentation(w), true) = (press, contact.normal_damping > 0.0 && !law.is_open())
-                {
-                    let Sample { value, rate, .. } = self.sample(*w, at.time());
-                    let elastic = contact.interface.normal_force(value);
-                    let force = contact.interface.normal_modulus() * reduced_force - elastic;
-                    // The source of the motion does this work, too.
-                    sum.damping += contact.count * force * rate;
-                    sum.input += contact.count * force * rate;
-                }
-                (d, dd, reduced_force)
-            }
-        };
+        let (d, dd, reduced_force) = self.press(contact, at, sum);
         let motion = Motion { d, u: u.value, dd, du: u.rate };
         // On a straight path the slip memory gives all quantities; the state components are not used.
         let straight = contact.goes_straight(self.pieces);
@@ -106,6 +71,48 @@ impl Equations<'_> {
             force = damped;
         }
         sum.apply(&contact.u.free, u.driven, -contact.count * force);
+    }
+
+    /// Adds the normal force of a contact and the power of its damping; returns the indentation d (m), its rate (m/s) and M(d), m².
+    #[inline]
+    fn press(&self, contact: &Contact, at: &impl View, sum: &mut Sum<'_>) -> (f64, f64, f64) {
+        let law = &self.modes[contact.place];
+        match &contact.press {
+            Press::Coupled(measure) => {
+                let d = self.read(measure, at);
+                let depth = contact.damped([d.value, d.rate], (&self.memories[contact.place], law));
+                let reduced_force = match law.lull() {
+                    Some(lull) => lull.reduced_force(depth),
+                    None => contact.interface.reduced_force(depth),
+                };
+                // An open contact exerts no force, even beyond the touch that ends the step.
+                let mut press = 0.0;
+                if !law.is_open() {
+                    // M(d) serves both normal force and branch.
+                    press = contact.count * (contact.interface.normal_modulus() * reduced_force);
+                    sum.apply(&measure.free, d.driven, -press);
+                }
+                if contact.normal_damping > 0.0 && !law.is_open() {
+                    // The elastic energy is that at d.
+                    sum.damping += (press - contact.count * contact.interface.normal_force(d.value)) * d.rate;
+                }
+                (depth, d.rate, reduced_force)
+            }
+            press => {
+                let (d, dd) = self.pressed(contact, at.time());
+                let reduced_force = contact.interface.reduced_force(d);
+                if let (Press::Indentation(w), true) = (press, contact.normal_damping > 0.0 && !law.is_open())
+                {
+                    let Sample { value, rate, .. } = self.sample(*w, at.time());
+                    let elastic = contact.interface.normal_force(value);
+                    let force = contact.interface.normal_modulus() * reduced_force - elastic;
+                    // The source of the motion does this work, too.
+                    sum.damping += contact.count * force * rate;
+                    sum.input += contact.count * force * rate;
+                }
+                (d, dd, reduced_force)
+            }
+        }
     }
 
     /// Writes the slopes of the additional components of a growing contact with damping along the normal.
