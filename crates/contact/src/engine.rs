@@ -364,7 +364,9 @@ impl Memory {
     pub fn radius(&self, law: &Interface, d: f64) -> f64 {
         match self {
             Self::Curve(_) => law.profile().radius(d),
-            Self::Row(SpringRow { springs, .. }) => 0.5 * springs.reduced_stiffness(d),
+            Self::Row(SpringRow { springs, .. }) => {
+                law.profile().radius_of_reduced_stiffness(springs.reduced_stiffness(d))
+            }
         }
     }
 

@@ -6,6 +6,7 @@ mod chart;
 mod error;
 mod flat;
 mod foundation;
+mod graded;
 mod kappa;
 mod kind;
 mod newton;
@@ -36,6 +37,7 @@ use crate::quadrature::{GAUSS, gauss};
 use asperities::Asperities;
 use chart::Chart;
 use flat::Flat;
+use graded::Graded;
 use kind::Kind;
 use power::Power;
 use powers::Powers;
@@ -71,6 +73,7 @@ enum Shape {
     TippedParaboloid(TippedParaboloid),
     Powers(Powers),
     Asperities(Asperities),
+    Graded(Graded),
     /// Table of points or normal law, shared by all clones of a contact.
     Chart(Arc<Chart>),
     /// Long list of springs.
@@ -91,6 +94,7 @@ macro_rules! of_kind {
             Shape::TippedParaboloid($kind) => $answer,
             Shape::Powers($kind) => $answer,
             Shape::Asperities($kind) => $answer,
+            Shape::Graded($kind) => $answer,
             Shape::Chart($kind) => $answer,
             Shape::Rough($kind) => $answer,
         }
@@ -163,10 +167,13 @@ impl Profile {
         }
     }
 
-    /// Returns the contact radius a(h) = m(h)/2, m; for a list of springs half the length in contact.
+    /// Returns the contact radius a(h), m: m(h)/2 between homogeneous bodies; for a list of springs half the length in contact.
     #[inline]
     pub fn radius(&self, h: f64) -> f64 {
-        0.5 * self.reduced_stiffness(h)
+        match &self.shape {
+            Shape::Graded(graded) if h > 0.0 => graded.radius(h),
+            _ => 0.5 * self.reduced_stiffness(h),
+        }
     }
 
     /// Returns g(a), m: the indentation at which the contact radius is a; 0 for a ≤ 0.
@@ -192,7 +199,7 @@ impl Profile {
 
     /// Returns the gap f(r) of the undeformed bodies, m, at the distance r ≥ 0 (m) from the axis.
     ///
-    /// Returns `None` beyond a flat punch, a sphere or the last point of a table, and for a list of springs, asperities and a normal law. For a
+    /// Returns `None` beyond a flat punch, a sphere or the last point of a table, and for a list of springs, asperities, graded bodies and a normal law. For a
     /// power law f = g/`κ_n` (4.20), so r²/2R for the paraboloid.
     pub fn gap(&self, r: f64) -> Option<f64> {
         if r.is_nan() || r < 0.0 {
@@ -207,7 +214,7 @@ impl Profile {
     }
 
     /// Returns where the normal pressure is largest; `None` for a list of springs and a normal law, which define no shape in three
-    /// dimensions.
+    /// dimensions, and between graded bodies.
     pub(crate) fn peak(&self) -> Option<Peak> {
         of_kind!(self, kind => kind.peak())
     }
@@ -217,9 +224,20 @@ impl Profile {
         of_kind!(self, kind => kind.middle_slope_integral(a))
     }
 
-    /// Returns the height at which the reduced stiffness m (m) is reached, m: g(m/2); see [`Self::depth`].
+    /// Returns the height at which the reduced stiffness m (m) is reached, m: g(m/2) between homogeneous bodies; see [`Self::depth`].
     pub fn height_of_reduced_stiffness(&self, m: f64) -> f64 {
-        self.depth(0.5 * m)
+        match &self.shape {
+            Shape::Graded(graded) if m > 0.0 => graded.height_of_reduced_stiffness(m),
+            _ => self.depth(0.5 * m),
+        }
+    }
+
+    /// Returns the contact radius at which the reduced stiffness is m (m), m: m/2 between homogeneous bodies.
+    pub(crate) fn radius_of_reduced_stiffness(&self, m: f64) -> f64 {
+        match &self.shape {
+            Shape::Graded(graded) if m > 0.0 => graded.radius(graded.height_of_reduced_stiffness(m)),
+            _ => 0.5 * m,
+        }
     }
 
     /// Returns the height at which the reduced force M (m²) is reached, m: the inverse of [`Self::reduced_force`].
@@ -323,7 +341,7 @@ impl Profile {
 
     /// Returns whether the profile defines a shape in three dimensions, and therefore a gap, a pressure and fields.
     ///
-    /// All profiles have a shape except lists of springs and normal laws, which define only forces.
+    /// All profiles have a shape except lists of springs and normal laws, which define only forces, and graded bodies.
     // A normal law alone does not state that the contact is axisymmetric.
     pub fn has_shape(&self) -> bool {
         self.peak().is_some()

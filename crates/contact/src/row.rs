@@ -155,7 +155,9 @@ impl Row {
             force: modulus * shear,
             elastic: 0.5 * modulus * square,
             friction: (modulus * work).max(0.0),
-            stick_radius: springs.inner_radius(first_slip.unwrap_or(after)),
+            stick_radius: law
+                .profile()
+                .radius_of_reduced_stiffness(2.0 * springs.inner_radius(first_slip.unwrap_or(after))),
             state: whole_state(after, slipping),
         }
     }

@@ -10,6 +10,6 @@ mod root;
 pub use libm::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, erfc, exp, exp2, expm1 as exp_m1,
     fma as mul_add, hypot, log as ln, log1p as ln_1p, log2, log10, pow as powf, sin, sincos as sin_cos, sinh,
-    tan, tanh,
+    tan, tanh, tgamma as gamma,
 };
 pub use root::cbrt;

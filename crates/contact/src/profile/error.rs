@@ -11,6 +11,12 @@ pub enum ProfileError {
     /// The mean height or the standard deviation of asperities is not above 0 or not finite, m.
     #[error("expected a height above 0 m, got {0}")]
     Scale(f64),
+    /// The depth at which a graded body has the modulus of its material is not above 0 or not finite, m.
+    #[error("expected a depth above 0 m, got {0}")]
+    Depth(f64),
+    /// The exponent of the modulus of a graded body is not in [0, 1).
+    #[error("expected an exponent of at least 0 and below 1, got {0}")]
+    Grading(f64),
     /// The number of asperities is out of range.
     #[error("expected a number of tips between 10 and 1e15, got {0}")]
     Tips(f64),

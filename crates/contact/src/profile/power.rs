@@ -79,7 +79,7 @@ impl Power {
     }
 
     /// Creates g = |x|ⁿ/s.
-    fn of_scale(scale: f64, n: f64) -> Self {
+    pub(super) fn of_scale(scale: f64, n: f64) -> Self {
         let root = match n {
             1.0 => Root::First,
             2.0 => Root::Second,

@@ -82,8 +82,9 @@ impl Springs {
         let distinct = count.div_ceil(2);
         let odd = count % 2 == 1;
         let from_centre = |rank: usize| if odd { 2 * rank } else { 2 * rank + 1 };
-        let heights: Vec<f64> =
-            (0..distinct).map(|rank| profile.depth(position(from_centre(rank) as f64))).collect();
+        let heights: Vec<f64> = (0..distinct)
+            .map(|rank| profile.height_of_reduced_stiffness(2.0 * position(from_centre(rank) as f64)))
+            .collect();
         let alone = |rank: usize| odd && rank == 0;
         let lengths = (0..distinct).map(|rank| if alone(rank) { cell } else { 2.0 * cell }).collect();
         Ok(Self::assemble(heights, lengths, positions, ranks, reach))
@@ -248,7 +249,7 @@ impl Springs {
 
 /// Returns the largest indentation with a contact width of at most `span`, except for rounding.
 fn reach(profile: &Profile, span: f64) -> Result<f64, SpringsError> {
-    let depth = profile.depth(0.5 * span * (1.0 + 4.0 * f64::EPSILON));
+    let depth = profile.height_of_reduced_stiffness(span * (1.0 + 4.0 * f64::EPSILON));
     // Only a flat punch has no indentation at this radius.
     if depth > 0.0 {
         // A row that spans all points of a profile has no limit of its own; the profile has one.

@@ -15,6 +15,7 @@ mod closed_forms;
 mod damping;
 mod fields;
 mod first_loading;
+mod graded;
 mod growth;
 mod histories;
 mod ideal_drive;

@@ -230,7 +230,7 @@ fn engine(
             let springs = match span {
                 Some(span) => row(law, (count, span), known.first)?,
                 None if is_forced => bearing(law, count, known)?,
-                None => row(law, (count, 2.0 * law.profile().radius(reach())), known.first)?,
+                None => row(law, (count, law.profile().reduced_stiffness(reach())), known.first)?,
             };
             Ok(Engine::Row(Arc::new(springs)))
         }
@@ -239,7 +239,7 @@ fn engine(
 
 /// Returns a row of springs that carries the largest force. A row softer than the profile has a larger indentation and must be wider.
 fn bearing(law: &Interface, count: usize, known: Pressed) -> Result<Springs, Refused> {
-    let width = |reach: f64| 2.0 * law.profile().radius(reach);
+    let width = |reach: f64| law.profile().reduced_stiffness(reach);
     let mut span = width(known.deepest);
     let mut springs = row(law, (count, span), known.first)?;
     for _ in 0..WIDENED {
@@ -263,7 +263,7 @@ fn row(law: &Interface, (count, span): (usize, f64), first: f64) -> Result<Sprin
     if first <= springs.reach() {
         return Ok(springs);
     }
-    let width = 2.0 * law.profile().radius(first);
+    let width = law.profile().reduced_stiffness(first);
     Err((Field::Span, SceneFault::Narrow { width, span }))
 }
 
@@ -381,7 +381,7 @@ mod tests {
                 let d = law.indentation(force);
                 let springs = bearing(&law, count, Pressed { deepest: d, first: d, force }).unwrap();
                 assert!(springs.height_of_reduced_force(law.reduced_force(d)) <= springs.reach());
-                let span = 2.0 * law.profile().radius(d);
+                let span = law.profile().reduced_stiffness(d);
                 let as_wide = row(&law, (count, span), d).unwrap();
                 let is_outgrown = as_wide.height_of_reduced_force(law.reduced_force(d)) > as_wide.reach();
                 assert!(is_outgrown || springs == as_wide);

@@ -256,6 +256,15 @@ class GaussianAsperitiesKind(TypedDict):
     indentation begins."""
 
 
+class GradedParaboloidKind(TypedDict):
+    """Paraboloid between bodies whose Young's modulus is E (z/depth)^exponent at the depth z; E is that of the
+    materials. The ratio of tangential to normal stiffness is that of homogeneous bodies."""
+
+    graded_paraboloid: "GradedParaboloid"
+    """Paraboloid between bodies whose Young's modulus is E (z/depth)^exponent at the depth z; E is that of the
+    materials. The ratio of tangential to normal stiffness is that of homogeneous bodies."""
+
+
 class ForceKind(TypedDict):
     """Tangential preload force of one contact, N; its magnitude is below the friction coefficient times the
     normal force."""
@@ -931,7 +940,7 @@ class Contact(TypedDict):
     """Damping of the contact: a time constant of its tangential springs, s, 0 by default, or an object with the
     damping along both directions."""
 
-Profile = Union["FlatKind", "ConeKind", "ParaboloidKind", "SphereKind", "PowerKind", "FoundationKind", "TruncatedConeKind", "TruncatedParaboloidKind", "RoundedFlatKind", "TippedParaboloidKind", "PowersKind", "TableKind", "NormalLawKind", "RoughKind", "ExponentialAsperitiesKind", "GaussianAsperitiesKind"]
+Profile = Union["FlatKind", "ConeKind", "ParaboloidKind", "SphereKind", "PowerKind", "FoundationKind", "TruncatedConeKind", "TruncatedParaboloidKind", "RoundedFlatKind", "TippedParaboloidKind", "PowersKind", "TableKind", "NormalLawKind", "RoughKind", "ExponentialAsperitiesKind", "GaussianAsperitiesKind", "GradedParaboloidKind"]
 """Profile f(r) of the gap between the undeformed bodies."""
 
 
@@ -1158,6 +1167,17 @@ class GaussianAsperities(TypedDict):
     """Radius of the tips, m, above 0; typical 1 um to 1 mm."""
     count: float
     """Number of tips, 10 to 1e15."""
+
+
+class GradedParaboloid(TypedDict):
+    """Paraboloid between graded bodies."""
+
+    radius: "Length"
+    """Radius of curvature R, m, above 0; typical 1 mm to 10 mm."""
+    exponent: float
+    """Exponent k of the modulus, at least 0 and below 1; 0 for homogeneous bodies."""
+    depth: "Length"
+    """Depth at which the modulus is that of the material, m, above 0; typical 1 um to 1 mm."""
 
 
 class StaticKinetic(TypedDict):
@@ -1606,8 +1626,8 @@ class Output(TypedDict):
     100 000 events are written, or fewer with more than 50 contacts. A decreasing share of later events is
     written. Results are computed from all events in any case."""
     steps: NotRequired["StepsOutput"]
-    """Steps of a drive written to `steps.csv`: `all` (default) or `off`. Results are computed from all steps in
-    any case."""
+    """Steps of a drive written to `steps.csv`, and of single pulses of a burst or a sequence to `pulses.csv`:
+    `all` (default) or `off`. Results are computed from all steps in any case."""
     window: NotRequired["Window"]
     """Time window in which rows and events are written; by default the whole run; give this or `last`. The first
     and the last row are always written."""

@@ -65,6 +65,10 @@ pub(crate) enum ProfileForm {
     /// has no end; otherwise the heights end at the expected highest one, at which the indentation begins.
     #[schemars(example = json!({ "gaussian_asperities": { "rms_height": "1 um", "radius": "50 um", "count": 10000 } }))]
     GaussianAsperities(GaussianAsperitiesForm),
+    /// Paraboloid between bodies whose Young's modulus is E (z/depth)^exponent at the depth z; E is that of the materials. The ratio of
+    /// tangential to normal stiffness is that of homogeneous bodies.
+    #[schemars(example = json!({ "graded_paraboloid": { "radius": "3 mm", "exponent": 0.3, "depth": "10 um" } }))]
+    GradedParaboloid(GradedParaboloidForm),
 }
 
 impl ProfileForm {
@@ -87,6 +91,7 @@ impl ProfileForm {
             Self::Rough(_) => "rough",
             Self::ExponentialAsperities(_) => "exponential_asperities",
             Self::GaussianAsperities(_) => "gaussian_asperities",
+            Self::GradedParaboloid(_) => "graded_paraboloid",
         }
     }
 }
@@ -119,6 +124,21 @@ pub(crate) struct GaussianAsperitiesForm {
     /// Number of tips, 10 to 1e15.
     #[schemars(range(min = 10.0, max = 1e15), example = 10000)]
     pub(crate) count: f64,
+}
+
+/// Paraboloid between graded bodies.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GradedParaboloidForm {
+    /// Radius of curvature R, m, above 0; typical 1 mm to 10 mm.
+    #[schemars(example = &"3 mm", transform = above_zero)]
+    pub(crate) radius: Length,
+    /// Exponent k of the modulus, at least 0 and below 1; 0 for homogeneous bodies.
+    #[schemars(range(min = 0.0, max = 1.0), example = 0.3)]
+    pub(crate) exponent: f64,
+    /// Depth at which the modulus is that of the material, m, above 0; typical 1 um to 1 mm.
+    #[schemars(example = &"10 um", transform = above_zero)]
+    pub(crate) depth: Length,
 }
 
 /// A flat punch, given by its radius or its diameter.

@@ -9,7 +9,7 @@ use crate::form::{
 use crate::named::MATERIALS;
 use crate::path::At;
 use crate::suggest;
-use stickslip_contact::{Growth, Interface, Pair, Profile};
+use stickslip_contact::{Growth, Interface, Material, Pair, Profile};
 use stickslip_drive::scene::{Contact, ContactStart, EngineChoice, Named, Normal, NormalDamping};
 
 /// Maximum number of identical contacts, and of springs of a row.
@@ -80,8 +80,9 @@ impl Builder<'_> {
 
     fn contact(&mut self, at: &At<'_>, form: &ContactForm) -> Result<Contact, Fault> {
         let between = self.between(at, &form.between)?;
-        let pair = self.pair(&at.key("materials"), &form.materials.0)?;
-        let profile = profile(&at.key("profile"), &form.profile, (pair, &form.normal))?;
+        let materials = self.materials_of(&at.key("materials"), &form.materials.0)?;
+        let profile = profile(&at.key("profile"), &form.profile, (materials, &form.normal))?;
+        let pair = Pair::new(materials[0], materials[1]);
         let interface = interface(&at.key("friction"), &form.friction, pair, profile)?;
         let (tangential, normal_damping) = damping(&at.key("damping"), &form.damping)?;
         let interface = interface.with_damping(tangential);
@@ -94,7 +95,7 @@ impl Builder<'_> {
         Ok(Contact { between, at, interface, normal, gap, normal_damping, start, engine, count })
     }
 
-    fn pair(&self, at: &At<'_>, names: &[String; 2]) -> Result<Pair, Fault> {
+    fn materials_of(&self, at: &At<'_>, names: &[String; 2]) -> Result<[Material; 2], Fault> {
         let find = |i: usize| {
             let materials = &self.form.materials;
             let index = materials.find(&names[i]).ok_or_else(|| {
@@ -104,7 +105,7 @@ impl Builder<'_> {
             })?;
             self.material(index)
         };
-        Ok(Pair::new(find(0)?, find(1)?))
+        Ok([find(0)?, find(1)?])
     }
 
     fn normal(&mut self, at: &At<'_>, form: &NormalForm) -> Result<Normal, Fault> {

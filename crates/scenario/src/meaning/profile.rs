@@ -6,16 +6,16 @@ use crate::form::{FoundationForm, Lengths, NormalForm, PowersForm, ProfileForm};
 use crate::guide::Help;
 use crate::path::At;
 use crate::units::Kind;
-use stickslip_contact::{Heights, Pair, Profile, ProfileError};
+use stickslip_contact::{Heights, Material, Pair, Profile, ProfileError};
 
 /// Maximum number of terms of a sum of powers. Each term costs a power in every evaluation.
 const MAX_TERMS: usize = 16;
 
-/// Converts a profile between bodies of the given pair of materials.
+/// Converts a profile between bodies of the given materials.
 pub(super) fn profile(
     at: &At<'_>,
     form: &ProfileForm,
-    (pair, normal): (Pair, &NormalForm),
+    (materials, normal): ([Material; 2], &NormalForm),
 ) -> Result<Profile, Fault> {
     let at = at.key(form.word());
     let endless = matches!(normal, NormalForm::Force(_));
@@ -32,13 +32,18 @@ pub(super) fn profile(
         ProfileForm::TippedParaboloid(ball) => Profile::tipped_paraboloid(ball.radius.si, ball.tip.si),
         ProfileForm::Powers(form) => return powers(&at.key("terms"), form),
         ProfileForm::Table(form) => return measured::table(&at, form),
-        ProfileForm::NormalLaw(form) => return measured::normal_law(&at, form, pair),
+        ProfileForm::NormalLaw(form) => {
+            return measured::normal_law(&at, form, Pair::new(materials[0], materials[1]));
+        }
         ProfileForm::Rough(form) => return measured::rough(&at, form),
         ProfileForm::ExponentialAsperities(it) => {
             Profile::asperities(Heights::Exponential, it.mean_height.si, it.radius.si, it.count, endless)
         }
         ProfileForm::GaussianAsperities(it) => {
             Profile::asperities(Heights::Gaussian, it.rms_height.si, it.radius.si, it.count, endless)
+        }
+        ProfileForm::GradedParaboloid(it) => {
+            Profile::graded_paraboloid(it.radius.si, it.exponent, it.depth.si, materials)
         }
     };
     let length = |key| at.key(key).expected(range::above(Kind::Length));
@@ -48,6 +53,8 @@ pub(super) fn profile(
             let gaussian = matches!(form, ProfileForm::GaussianAsperities(_));
             length(if gaussian { "rms_height" } else { "mean_height" })
         }
+        ProfileError::Depth(_) => length("depth"),
+        ProfileError::Grading(_) => at.key("exponent").expected("a number of at least 0 and below 1"),
         ProfileError::Tips(_) => at.key("count").expected("a number between 10 and 1e15"),
         ProfileError::Flat(_) => length("flat"),
         ProfileError::Tip(_) => length("tip"),
