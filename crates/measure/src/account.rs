@@ -17,7 +17,7 @@ use stickslip_drive::{EventKind, Source};
 pub const RINGING: f64 = 0.05;
 /// Numbers in the column `state` for an open contact and for gross slip.
 const OPEN: f64 = 0.0;
-const SLIP: f64 = 3.0;
+pub(crate) const SLIP: f64 = 3.0;
 
 /// Evaluates the periods of a run.
 #[derive(Debug)]

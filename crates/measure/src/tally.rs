@@ -2,7 +2,7 @@
 
 use crate::Setting;
 use crate::Stride;
-use crate::account::Accounts;
+use crate::account::{Accounts, SLIP};
 use crate::contact_cycles::{CycleFigures, Loops};
 use crate::excursions::Excursions;
 use crate::foot::Foot;
@@ -10,7 +10,7 @@ use crate::periods::{Periods, Tracker};
 use crate::strides::StrideList;
 use std::collections::HashMap;
 use stickslip_drive::scene::Freedom;
-use stickslip_drive::{Extent, Source};
+use stickslip_drive::{EventKind, Extent, Source};
 
 /// Empty range.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
@@ -33,6 +33,8 @@ pub struct Tally {
 pub struct ContactTally {
     /// Channel indices of `fx_N`, `fn_N` and `d_m`.
     places: [Option<usize>; 3],
+    /// Channel index of `state`.
+    state: Option<usize>,
     /// Largest magnitudes of the tangential and normal force, N.
     pub peaks: [f64; 2],
     /// Minimum and maximum of the normal force, N, and of the indentation, m.
@@ -41,6 +43,8 @@ pub struct ContactTally {
     pub open: f64,
     /// Time since which the contact has been open, s. `None` while it is closed.
     pub open_since: Option<f64>,
+    /// Time since which the contact has neither slipped grossly nor been open, s. `None` while it does, and before the first such event.
+    pub at_rest_since: Option<f64>,
     /// Time of the first sample, s, and time, s, and indentation, m, of the last sample.
     first: f64,
     last: Option<[f64; 2]>,
@@ -123,6 +127,11 @@ impl Tally {
 
     /// Adds a sample to the evaluation of the drive periods: an event or a sampling time.
     pub fn account(&mut self, event: Option<(Source, &str)>, values: &[f64]) {
+        if let (Some((Source::Contact(c), kind)), Some(t)) = (event, values.first())
+            && let Some(contact) = self.contacts.get_mut(c)
+        {
+            contact.event(kind, (*t, values));
+        }
         if let Some(accounts) = &mut self.accounts {
             accounts.moment(event, values);
         }
@@ -219,13 +228,26 @@ impl ContactTally {
         let place = |quantity| places.get(format!("{name}.{quantity}").as_str()).copied();
         Self {
             places: ["fx_N", "fn_N", "d_m"].map(place),
+            state: place("state"),
             peaks: [0.0; 2],
             ranges: [NOWHERE; 2],
             open: 0.0,
             open_since: None,
+            at_rest_since: None,
             first: 0.0,
             last: None,
             loops: Loops::of(setting, c, places),
+        }
+    }
+
+    fn event(&mut self, kind: &str, (t, values): (f64, &[f64])) {
+        let slips = || self.state.and_then(|place| values.get(place)) == Some(&SLIP);
+        let is = |others: [EventKind; 3]| others.iter().any(|other| kind == other.name());
+        if is([EventKind::GrossSlip, EventKind::BreaksLoose, EventKind::LiftOff]) {
+            self.at_rest_since = None;
+        } else if is([EventKind::GrossSlipEnds, EventKind::SticksAgain, EventKind::Touch]) {
+            // A contact that slips from its touch on has no other event.
+            self.at_rest_since = Some(t).filter(|_| kind != EventKind::Touch.name() || !slips());
         }
     }
 
@@ -302,10 +324,12 @@ mod tests {
     fn a_bouncing_contact_is_open_between_its_events() {
         let mut tally = ContactTally {
             places: [Some(2), Some(2), Some(1)],
+            state: None,
             peaks: [0.0; 2],
             ranges: [NOWHERE; 2],
             open: 0.0,
             open_since: None,
+            at_rest_since: None,
             first: 0.0,
             last: None,
             loops: None,

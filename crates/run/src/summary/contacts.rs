@@ -39,6 +39,10 @@ pub struct ContactSummary {
     /// friction work of the run, total of all identical contacts
     #[serde(rename = "friction_J")]
     friction: Real,
+    /// time since which the contact has neither slipped grossly nor been open. Absent if it does so at the end of the
+    /// run, or never did.
+    #[serde(rename = "at_rest_since_s", skip_serializing_if = "Option::is_none")]
+    pub at_rest_since: Option<Real>,
     similarity: SimilaritySummary,
     /// Hysteresis loop of the last whole cycle. Absent if u does not return to its start.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -121,6 +125,7 @@ fn contact(job: &Job, outcome: &Outcome, (c, law): (usize, &Interface)) -> Conta
         peak_normal: normal_peak,
         normal: tally.filter(|_| job.is_coupled(c)).and_then(NormalMotion::of),
         friction: Real(outcome.books.friction_of(c)),
+        at_rest_since: tally.and_then(|tally| tally.at_rest_since).map(Real),
         similarity: SimilaritySummary::of(law),
         fretting: outcome.cycles.get(c).and_then(|cycles| Fretting::of(cycles, job.is_damped(c))),
     }

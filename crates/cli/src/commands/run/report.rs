@@ -280,6 +280,8 @@ fn result(job: &Job, outcome: &Outcome, summary: &Summary) -> String {
     for (name, contact) in &summary.contacts.0 {
         if let Some(fretting) = &contact.fretting {
             lines.push(format!("  {name}: {}", cycle(fretting)));
+        } else if let (None, Some(since)) = (&summary.steps, contact.at_rest_since) {
+            lines.push(format!("  {name}: at rest since {}", quantity(since, "s")));
         }
     }
     lines.extend(summary.printed_notes().map(|note| format!("  {note}")));
