@@ -10,7 +10,7 @@ fn new(folder: &Path, arguments: &[&str]) -> Output {
     stickslip().arg("new").args(arguments).current_dir(folder).output().unwrap()
 }
 
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 18] = [
     "drive",
     "datasheet",
     "piezo",
@@ -26,6 +26,9 @@ const NAMES: [&str; 15] = [
     "rotary",
     "hobby",
     "oscillator",
+    "belt",
+    "bounce",
+    "asperities",
 ];
 
 #[test]

@@ -21,6 +21,8 @@ mod measured_impact;
 mod oblique_loading;
 mod page;
 mod picture;
+mod restitution;
+mod stick_slip;
 mod subject;
 mod table;
 mod worked;

@@ -3,7 +3,7 @@
 use crate::page::Page;
 use crate::{
     closed_forms, contact_bem, finite_elements, fretting_load, impact_theory, measured_impact,
-    oblique_loading,
+    oblique_loading, restitution, stick_slip,
 };
 use stickslip_contact::{ContactError, FirstLoadingError, FrictionError, MaterialError, ProfileError};
 use stickslip_drive::RunError;
@@ -28,6 +28,12 @@ pub enum Subject {
     FrettingLoad,
     /// Closed forms of loading, unloading and hysteresis loops.
     ClosedForms,
+    /// Closed form of stick-slip on a belt.
+    Belt,
+    /// Measured stick-slip of a slider on a spring.
+    MeasuredSlider,
+    /// Coefficients of restitution by another integration.
+    Restitution,
 }
 
 /// Reason why a page cannot be computed.
@@ -64,7 +70,7 @@ pub enum ValidationError {
 
 impl Subject {
     /// All comparisons in the order of the index.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::MeasuredImpact,
         Self::ContactBem,
         Self::ObliqueLoading,
@@ -72,6 +78,9 @@ impl Subject {
         Self::FiniteElements,
         Self::FrettingLoad,
         Self::ClosedForms,
+        Self::Belt,
+        Self::MeasuredSlider,
+        Self::Restitution,
     ];
 
     /// Returns the name of the page's files, without extension.
@@ -84,6 +93,9 @@ impl Subject {
             Self::FiniteElements => finite_elements::NAME,
             Self::FrettingLoad => fretting_load::NAME,
             Self::ClosedForms => closed_forms::NAME,
+            Self::Belt => stick_slip::BELT,
+            Self::MeasuredSlider => stick_slip::SLIDER,
+            Self::Restitution => restitution::NAME,
         }
     }
 
@@ -100,6 +112,9 @@ impl Subject {
             Self::FiniteElements => finite_elements::page(watcher),
             Self::FrettingLoad => fretting_load::page(watcher),
             Self::ClosedForms => closed_forms::page(),
+            Self::Belt => stick_slip::belt(),
+            Self::MeasuredSlider => stick_slip::slider(),
+            Self::Restitution => restitution::page(),
         }
     }
 }

@@ -12,7 +12,7 @@ use stickslip_scenario::{Scenario, schema};
 use thiserror::Error;
 
 /// Templates by name, from the examples and the folder `templates`.
-const TEMPLATES: [(&str, &str); 15] = [
+const TEMPLATES: [(&str, &str); 18] = [
     ("drive", include_str!("../../scenarios/quickstart.json")),
     ("datasheet", include_str!("../../templates/datasheet.json")),
     ("piezo", include_str!("../../scenarios/piezo_stack.json")),
@@ -28,6 +28,9 @@ const TEMPLATES: [(&str, &str); 15] = [
     ("rotary", include_str!("../../templates/rotary.json")),
     ("hobby", include_str!("../../templates/hobby.json")),
     ("oscillator", include_str!("../../templates/oscillator.json")),
+    ("belt", include_str!("../../scenarios/belt.json")),
+    ("bounce", include_str!("../../scenarios/bounce.json")),
+    ("asperities", include_str!("../../scenarios/asperities.json")),
 ];
 /// Schema path in the examples.
 const SCHEMA_OF_EXAMPLES: &str = "../schema/scenario-1.json";

@@ -51,7 +51,7 @@ fn the_tangential_force_is_that_of_a_power_law() {
     assert_relative_eq!(2.0 * (1.0 - 0.5_f64.powf(2.0 / (3.0 + k))), 0.686_023_57, max_relative = 1e-8);
     let row = Springs::new(law.profile(), 4000, law.profile().reduced_stiffness(1.01 * d)).unwrap();
     for (engine, allowed) in [(Engine::Curve, 1e-12), (Engine::Row(Arc::new(row)), 1e-3)] {
-        let mut memory = engine.memory(&law, Apex { d, u: 0.0 });
+        let memory = engine.memory(&law, Apex { d, u: 0.0 });
         for share in [0.1, 0.343_011_785, 0.9] {
             let u = share * gross;
             let wanted = limit * (1.0 - (1.0 - share).powf(0.5 * (3.0 + k)));
