@@ -200,9 +200,31 @@ impl Contact {
         power > 1.0 && power < 2.0
     }
 
-    /// Returns whether an ordinary step to lift-off is as accurate as a graded one: for F_N ∝ dᵖ with p ≥ 2.
+    /// Returns whether an ordinary step to lift-off is as accurate as a graded one: for F_N ∝ dᵖ with p ≥ 2, or p ≥ 3 with damping.
     pub(crate) fn fades_evenly(&self) -> bool {
-        self.interface.profile().first_power() >= 2.0
+        let damped = if self.is_damped() { 1.0 } else { 0.0 };
+        self.interface.profile().first_power() - damped >= 2.0
+    }
+
+    /// Returns the error of a graded step to lift-off, in units of the tolerance. `told` is the error estimate of the step. The function
+    /// `left` returns the indentation at the start of the step in natural lengths, and the tolerance of a velocity in natural velocities.
+    ///
+    /// The damping force is proportional to d to the power p - 1 if the normal force has the power p. Stages placed in the square root of
+    /// time resolve this force only for multiples of 1/2. Otherwise the error is about βω·leftᵖ, even if the estimate is small.
+    // The factors 1 to 30 and 2e-4 were fitted to measured errors of steps of 0.05 to 0.8 rad.
+    pub(crate) fn missed(&self, told: f64, left: impl FnOnce() -> (f64, f64)) -> f64 {
+        let (power, fading) = (self.interface.profile().first_power(), self.fading());
+        let crowded = told * (100.0 * fading).clamp(1.0, 30.0);
+        if fading == 0.0 || (2.0 * power).fract() == 0.0 {
+            return crowded;
+        }
+        let (left, allowed) = left();
+        crowded.max(2e-4 * fading * math::powf(left, power) / allowed)
+    }
+
+    /// Returns βω: the damping force at the natural velocity, relative to the natural force; 0 without damping.
+    pub(crate) fn fading(&self) -> f64 {
+        self.interface.damping() * self.natural.frequency
     }
 
     /// Returns the kinds of events at which gross slip begins and ends.

@@ -13,7 +13,7 @@ use crate::method::Method;
 use crate::model::{Free, Model};
 use crate::record;
 use crate::state::{Ahead, Gait, Grip, State, Whereabouts};
-use stickslip_contact::Site;
+use stickslip_contact::{Guard, Site};
 use stickslip_stepper::{Attempt, End, Grade, Target};
 
 /// Largest velocity that counts as rest, relative to the natural velocity. The value corresponds to several hundred rounding errors.
@@ -97,6 +97,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
         let mut error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
         let Some((c, guard)) = aim.closes else { return error };
         let contact = &eq.model.contacts[c];
+        error = self.judged_at_end(eq, (c, guard), (t, aim.grade), error);
         for _ in 0..CORRECTIONS {
             let (end, h) = (self.solver.span().end, aim.target - t);
             let motion = eq.motion(contact, aim.target, |i| end[i]);
@@ -113,8 +114,30 @@ impl<A: for<'e> Attempt<Equations<'e>>> Motion<A> {
             aim.target = to;
             let target = Target { end: to, grade: aim.grade };
             error = self.solver.attempt(eq, target, &self.allowance.allowed.scale);
+            error = self.judged_at_end(eq, (c, guard), (t, aim.grade), error);
         }
         error
+    }
+
+    /// Returns the error of a step from time t to a zero of an event function. `told` is the error estimate of the integrator.
+    fn judged_at_end(
+        &self,
+        eq: &Equations<'_>,
+        (c, guard): (usize, Guard),
+        (t, grade): (f64, Grade),
+        told: f64,
+    ) -> f64 {
+        if grade != Grade::End {
+            return told;
+        }
+        let contact = &eq.model.contacts[c];
+        contact.missed(told, || {
+            let begin = self.solver.span().begin;
+            let motion = eq.motion(contact, t, |i| begin[i]);
+            let unit =
+                if guard == Guard::Contact { contact.natural.depth } else { contact.natural.displacement };
+            (guard.value(contact, eq.law(c), &motion) / unit, self.allowance.strict)
+        })
     }
 
     /// Returns the larger of the integrator's error and the error of the energy balance, for an acceptable step.
