@@ -23,11 +23,11 @@ fn the_pages_of_the_project_say_what_the_program_computes() {
     for out in &outs {
         let output = validate(&[], out);
         assert_eq!((code(&output), stderr(&output)), (0, String::new()));
-        let said = format!("{}: 7 pages, 20 of 20 tolerances met\n", out.display());
+        let said = format!("{}: 10 pages, 25 of 25 tolerances met\n", out.display());
         assert_eq!(stdout(&output), said);
     }
     let names = listing(&outs[0]);
-    assert_eq!((names.len(), &names), (15, &listing(&project())));
+    assert_eq!((names.len(), &names), (21, &listing(&project())));
     for name in &names {
         let [a, b] = [&outs[0], &outs[1]].map(|out| std::fs::read(out.join(name)).unwrap());
         assert!(a == b, "{name} differs from one time to the next");

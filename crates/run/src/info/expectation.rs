@@ -66,7 +66,8 @@ pub struct Events {
     /// number of corners of waveforms: those of one period times the number of periods
     pub corners: Real,
     /// estimated number of events of contacts and blocks. Within a factor of two for the examples; other models may
-    /// differ more.
+    /// differ more. With static and kinetic friction there are more: the ringing each time that a contact sticks again is
+    /// not counted.
     pub contacts_estimate: Real,
     /// Events in a period of the waveform named in `figures`.
     #[serde(skip_serializing_if = "Option::is_none")]
