@@ -19,6 +19,7 @@ mod equilibrium;
 mod error;
 mod event;
 pub mod facts;
+pub mod inputs;
 mod interval;
 mod linearised;
 mod method;

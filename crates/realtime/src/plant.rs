@@ -1,13 +1,13 @@
 //! Simulated system that is advanced frame by frame.
 
 mod channels;
-mod commanded;
 mod drive;
 
-#[cfg(test)]
-pub(crate) use channels::Feed;
-pub use channels::{ChannelError, Input, Output, Takes, inputs, outputs};
+pub use channels::{ChannelError, Output, inputs, outputs};
 pub use drive::Drive;
+#[cfg(test)]
+pub(crate) use stickslip_drive::inputs::Feed;
+pub use stickslip_drive::inputs::{Input, Takes};
 
 use stickslip_drive::{CommandError, InputError, Run, RunError};
 use thiserror::Error;

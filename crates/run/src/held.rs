@@ -4,10 +4,8 @@ use crate::checkpoint::model_key;
 use crate::job::Job;
 use self_cell::self_cell;
 use std::sync::Arc;
-use stickslip_drive::scene::Named;
-use stickslip_drive::{
-    BytesError, Channel, Command, CommandError, InputError, Record, Run, RunError, Shape, State, Waveform,
-};
+use stickslip_drive::inputs::{Input, inputs};
+use stickslip_drive::{BytesError, Channel, Command, CommandError, InputError, Record, Run, RunError, State};
 use stickslip_quantity::{columns::TRACE, names};
 use thiserror::Error;
 
@@ -41,24 +39,12 @@ pub enum HeldError {
     /// The stored state is invalid.
     #[error(transparent)]
     Bytes(#[from] BytesError),
+    /// The stored values of the inputs are missing or out of range.
+    #[error("the state has no valid values of the inputs")]
+    Inputs,
     /// The run cannot start.
     #[error(transparent)]
     Run(#[from] RunError),
-}
-
-/// A waveform that the caller sets or commands.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Port {
-    /// Name of the waveform.
-    pub name: String,
-    /// Index among the waveforms, the argument of [`Held::hold`], [`Held::lead`] and [`Held::command`].
-    pub place: usize,
-    /// SI unit of the first quantity that follows the waveform.
-    pub unit: &'static str,
-    /// Minimum and maximum value, in this unit. For a generator, these are the limits of the stroke.
-    pub range: (f64, f64),
-    /// Description.
-    pub text: String,
 }
 
 /// A channel of a row.
@@ -70,6 +56,11 @@ pub struct Quantity {
     pub unit: &'static str,
     /// Description.
     pub text: &'static str,
+}
+
+/// Returns a channel with its unit and description.
+pub(crate) fn quantity_of(channel: Channel) -> Quantity {
+    Quantity { unit: names::unit(&channel.name), text: TRACE.text(&channel.name), name: channel.name }
 }
 
 impl Held {
@@ -99,6 +90,11 @@ impl Held {
     /// Calls `ask` with the current state and returns its result.
     pub fn with_state<T>(&self, ask: impl FnOnce(&State) -> T) -> T {
         self.cell.with_dependent(|_, run| ask(run.state()))
+    }
+
+    /// Calls `act` with the run and returns its result.
+    pub(crate) fn with_run<T>(&mut self, act: impl FnOnce(&mut Run<'_>) -> T) -> T {
+        self.cell.with_dependent_mut(|_, run| act(run))
     }
 
     /// Returns the simulated time, s.
@@ -166,43 +162,12 @@ impl Held {
     /// Returns the channels of a row in order.
     #[must_use]
     pub fn channels(&self) -> Vec<Quantity> {
-        let known = |channel: Channel| Quantity {
-            unit: names::unit(&channel.name),
-            text: TRACE.text(&channel.name),
-            name: channel.name,
-        };
-        self.job().model.channels().into_iter().map(known).collect()
+        self.job().model.channels().into_iter().map(quantity_of).collect()
     }
 
-    /// Returns the waveforms of kind `input`, whose values the caller sets.
+    /// Returns the inputs: values of waveforms of kind `input`, and commands of generators.
     #[must_use]
-    pub fn inputs(&self) -> Vec<Port> {
-        self.ports(|shape| match shape {
-            Shape::Input { initial, range, .. } => {
-                Some((*range, format!("given by the caller, initially {initial}")))
-            }
-            _ => None,
-        })
-    }
-
-    /// Returns the waveforms of kind `generator`, which the caller commands.
-    #[must_use]
-    pub fn generators(&self) -> Vec<Port> {
-        self.ports(|shape| match shape {
-            Shape::Generator(generator) => {
-                let (low, high) = generator.frequencies;
-                Some((generator.strokes, format!("cycles with commanded strokes at {low} to {high} Hz")))
-            }
-            _ => None,
-        })
-    }
-
-    fn ports(&self, of: impl Fn(&Shape) -> Option<((f64, f64), String)>) -> Vec<Port> {
-        let scene = &self.job().scenario.scene;
-        let port = |(place, named): (usize, &Named<Waveform>)| {
-            let (range, text) = of(named.part.shape())?;
-            Some(Port { name: named.name.clone(), place, unit: scene.waveform_unit(place), range, text })
-        };
-        scene.waveforms.iter().enumerate().filter_map(port).collect()
+    pub fn inputs(&self) -> Vec<Input> {
+        inputs(&self.job().scenario.scene)
     }
 }

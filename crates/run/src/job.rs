@@ -11,7 +11,7 @@ use std::sync::Arc;
 use stickslip_contact::Springs;
 use stickslip_drive::{Model, SceneError};
 use stickslip_measure::Setting;
-use stickslip_scenario::{Scenario, ScenarioError, Stage};
+use stickslip_scenario::{Interface, Scenario, ScenarioError, Stage};
 use thiserror::Error;
 
 /// A checked scenario, ready to run.
@@ -24,6 +24,8 @@ pub struct Job {
     pub setting: Setting,
     /// Columns of the trace and the event table.
     pub columns: Columns,
+    /// Inputs, outputs and parameters that another program sees.
+    pub interface: Interface,
     /// Springs of each contact that are written to `springs.csv`, if requested.
     pub grids: Vec<Option<Arc<Springs>>>,
     /// Resolved scenario in canonical JSON.
@@ -115,24 +117,26 @@ impl Job {
             Some(places) => Columns::chosen(&channels, &places),
             None => Columns::all(&channels),
         });
+        let interface = scenario.interface(&channels);
         let estimates = [
             limits::check_rows(&scenario, channels.len()),
             limits::check_curves(&scenario),
             limits::check_fields(&scenario),
         ];
         // Independent checks are all made, so that their errors are reported together.
-        let wrong = started.as_ref().err().into_iter().chain(columns.as_ref().err()).cloned();
+        let wrong = started.as_ref().err().into_iter().chain(columns.as_ref().err());
+        let wrong = wrong.chain(interface.as_ref().err()).cloned();
         let wrong = wrong.chain(estimates.into_iter().filter_map(Result::err));
         if let Some(error) = ScenarioError::joined(wrong) {
             // The memory is estimated for complete jobs only.
             return Err(error.without(&[Stage::Limits]));
         }
-        let ((start, grids), columns) = (started?, columns?);
+        let ((start, grids), columns, interface) = (started?, columns?, interface?);
         let resolved = scenario.resolved();
         let hash = hash(&resolved);
         let program = this_program();
         let setting = Setting { scenario, model, start };
-        let job = Self { name, folder, setting, columns, grids, resolved, hash, program };
+        let job = Self { name, folder, setting, columns, interface, grids, resolved, hash, program };
         excess::check(&job)?;
         Ok(job)
     }

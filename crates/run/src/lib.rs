@@ -7,7 +7,7 @@
 //! In reading order:
 //!
 //! * [`Job`] (a prepared scenario) with its `limits`; [`info`] (properties known before the run); [`Columns`] of tables; [`program`];
-//! * a run: [`Watcher`], [`Recorder`], [`Outcome`] (its results), [`Held`] (a run that the caller advances), [`Table`] (rows in memory);
+//! * a run: [`Watcher`], [`Recorder`], [`Outcome`] (its results), [`Held`] (a run that the caller advances), [`Simulation`] with [`interface`] (for other programs), [`Table`] (rows in memory);
 //! * [`Kept`]: results in memory; `table`, `insides` and `sheet` with `digest`: tables on disk, named in [`files`], each with its [`Seal`];
 //!   [`folder`]: atomic publishing of results on a `disk`; [`fingerprint`]: digests of tables;
 //! * [`summary`] with [`Real`] and [`Parts`]; [`warning`];
@@ -32,6 +32,7 @@ pub mod guard;
 mod held;
 pub mod info;
 mod insides;
+pub mod interface;
 mod job;
 mod kept;
 mod limits;
@@ -53,6 +54,7 @@ pub mod rows;
 mod seal;
 mod selection;
 mod sheet;
+mod simulation;
 pub mod springs;
 mod states;
 mod steps_table;
@@ -64,7 +66,7 @@ pub mod warning;
 
 pub use columns::Columns;
 pub use excess::Excess;
-pub use held::{Held, HeldError, Port, Quantity};
+pub use held::{Held, HeldError, Quantity};
 pub use job::{Job, Refusal};
 pub use kept::Kept;
 pub use memory::Table;
@@ -74,6 +76,7 @@ pub use record::{Draft, Recorder};
 pub use results::{Results, ResultsError};
 pub use seal::{Seal, SealedTable, hash};
 pub use selection::TakenEvents;
+pub use simulation::{Simulation, SimulationError};
 pub use stickslip_drive::{Unrecorded, Watcher};
 pub use stickslip_measure::{
     ENERGY, Extreme, Periods, Series, Setting, Track, Tracks, Trail, Warning, contact_path,

@@ -30,6 +30,7 @@ mod fault;
 mod folder;
 mod form;
 mod guide;
+mod interface;
 mod meaning;
 mod misfit;
 mod mistakes;
@@ -57,6 +58,7 @@ mod units;
 pub use error::{Report, ScenarioError, Stage, Warning};
 pub use excerpt::Excerpt;
 pub use guide::explained;
+pub use interface::Interface;
 pub use meaning::{
     Ceramic, FieldsOutput, Figures, Hysteresis, MemoryOutput, OwnPlot, Piezo, SpringsOutput, Written,
     WrittenEvents,

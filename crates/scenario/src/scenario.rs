@@ -215,10 +215,18 @@ impl Scenario {
     /// # Errors
     /// Unknown names, or a name that occurs twice.
     pub fn columns(&self, channels: &[Channel]) -> Result<Option<Vec<usize>>, ScenarioError> {
-        let asked = self.channels.as_ref().map(|names| meaning::channels::places(names, channels));
+        let asked = self
+            .channels
+            .as_ref()
+            .map(|names| meaning::channels::places(["output", "channels"], names, channels));
         let drawn = meaning::plots::check(&self.own_plots, channels);
         let places = asked.transpose().and_then(|places| drawn.map(|()| places));
-        places.map_err(|fault| mistakes::all(self.document.clone(), vec![fault]))
+        places.map_err(|fault| self.fault(fault))
+    }
+
+    /// Converts a fault of a later check to an error with its position in the file.
+    pub(crate) fn fault(&self, fault: Fault) -> ScenarioError {
+        mistakes::all(self.document.clone(), vec![fault])
     }
 
     /// Returns a warning of a later check, with its position in the file. `path` is a key path such as `contacts.ball.normal`.

@@ -349,7 +349,9 @@ class Simulation:
         """Moves on to the absolute time ``t``, s or a text with a unit; inputs by their names.
 
         ``t`` is no step: for a step write ``sim.advance(sim.time + dt)``; it may lie beyond the duration of the scenario.
-        An input takes its new value at once and is held, or goes to it in a straight line until ``t``, as its waveform says. Raises
+        An input takes its new value at once and is held, or goes to it in a straight line until ``t``, as its waveform says. A generator
+        has the inputs ``NAME.stroke``, ``NAME.frequency``, ``NAME.heading`` and ``NAME.steps``:
+        ``sim.advance(t, **{"drive.steps": 3})``. Raises
         RunError where the run stops, ValueError for a name that is no input, a value outside its range or a time before the present one.
         """
         values = [(name, si(value, self._units.get(name, ""))) for name, value in inputs.items()]

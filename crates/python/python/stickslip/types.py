@@ -1747,6 +1747,18 @@ class OwnPlot(_OwnPlot):
 Channels = Union[str, list[str]]
 """One channel or a list of them."""
 
+
+class Interface(TypedDict):
+    """Inputs, outputs and parameters for a program that runs the scenario as a part of its own model, such as
+    the host of an FMU."""
+
+    inputs: NotRequired[list[str]]
+    """Names of waveforms of kind `input` or `generator` that the host sets; by default all of them."""
+    outputs: NotRequired[list[str]]
+    """Names of columns of `trace.csv` that the host reads; by default all of them."""
+    parameters: NotRequired[list[str]]
+    """Key paths of numbers that the host may set before the start; none by default."""
+
 _ScenarioDict = TypedDict("_ScenarioDict", {"$schema": str}, total=False)
 
 
@@ -1789,3 +1801,6 @@ class ScenarioDict(_ScenarioDict):
     plots: NotRequired[list["Plot"]]
     """Plots to draw: names of predefined plots, or channels over another channel. By default `loop` is drawn if
     there are contacts, and `trajectory` is drawn if a body is free along x."""
+    interface: NotRequired["Interface"]
+    """Inputs, outputs and parameters for a program that runs the scenario as a part of its own model, such as
+    the host of an FMU. By default these are all inputs and all columns."""

@@ -9,6 +9,7 @@ const B: Client = Client::Writer(2);
 fn intake(silence: Silence) -> Intake {
     let input = |name: &str, initial| Input {
         name: name.to_owned(),
+        unit: "",
         initial,
         takes: Takes::Range(-1.0, 1.0),
         feed: Feed::Hold(0),

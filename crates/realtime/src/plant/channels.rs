@@ -1,90 +1,10 @@
 //! Inputs and outputs of a drive, by name.
 
-use super::commanded::{Part, values};
 use crate::wire::MOST_VALUES;
-use std::fmt;
+use stickslip_drive::inputs::Input;
 use stickslip_drive::scene::Axis;
-use stickslip_drive::{Generator, Interpolation, Model, Scene, Shape};
+use stickslip_drive::{Model, Scene};
 use thiserror::Error;
-
-/// An input of a drive.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Input {
-    /// Name of the waveform.
-    pub name: String,
-    /// Initial value, in the unit of the quantity that follows the waveform.
-    pub initial: f64,
-    /// Allowed values.
-    pub takes: Takes,
-    /// Effect of the value on the run.
-    pub(crate) feed: Feed,
-}
-
-/// Allowed values of an input.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Takes {
-    /// Values from the smallest to the largest value.
-    Range(f64, f64),
-    /// +1 or −1.
-    Sign,
-    /// A number of cycles: 0, 1, 2, … up to 2⁵³, or −1 for no limit.
-    Count,
-}
-
-/// Largest count, 2⁵³: all integers up to this value are exact in double precision.
-const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
-
-impl Takes {
-    /// Returns whether a value is allowed. NaN is never allowed.
-    #[inline]
-    pub fn has(self, value: f64) -> bool {
-        match self {
-            Self::Range(low, high) => value >= low && value <= high,
-            Self::Sign => value.abs() == 1.0,
-            Self::Count => (-1.0..=MOST_STEPS).contains(&value) && value.fract() == 0.0,
-        }
-    }
-}
-
-impl fmt::Display for Takes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Range(low, high) => write!(f, "{low:e} to {high:e}"),
-            Self::Sign => f.write_str("1 or -1"),
-            Self::Count => f.write_str("0, 1, 2, … or -1 for no limit"),
-        }
-    }
-}
-
-/// Effect of an input value on the run, with the index of the waveform in the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Feed {
-    /// The waveform has the value from the start of the frame on.
-    Hold(usize),
-    /// The waveform reaches the value at the end of the frame, by linear interpolation.
-    Lead(usize),
-    /// The value is a part of the command for the cycles of a generator that start later.
-    Command(usize, Part),
-    /// The value is recorded but has no effect.
-    Note,
-}
-
-impl Input {
-    /// Creates an input that has no effect, such as the setpoint of a controller. The input is recorded and drawn like other inputs.
-    pub fn note(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            initial: 0.0,
-            takes: Takes::Range(f64::MIN, f64::MAX),
-            feed: Feed::Note,
-        }
-    }
-
-    /// Returns whether the value is reached at the end of a frame by linear interpolation. Other values apply from the start of the frame.
-    pub fn is_led(&self) -> bool {
-        matches!(self.feed, Feed::Lead(_))
-    }
-}
 
 /// An output of a drive.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -132,42 +52,13 @@ pub enum ChannelError {
     TooMany(usize, &'static str),
 }
 
-/// Returns all inputs of a model: one value per input waveform, four per generator. Waveforms without followers have no effect.
+/// Returns all inputs of a scene, see [`stickslip_drive::inputs::inputs`].
 ///
 /// # Errors
 /// There are more values than a packet can hold.
 pub fn inputs(scene: &Scene) -> Result<Vec<Input>, ChannelError> {
-    let mut inputs = Vec::new();
-    for (place, waveform) in scene.waveforms.iter().enumerate() {
-        let (name, part) = (waveform.name.clone(), &waveform.part);
-        match part.shape() {
-            Shape::Generator(generator) => inputs.extend(commands(&name, place, generator)),
-            Shape::Input { initial, .. } => {
-                let (low, high) = part.range();
-                let feed = match part.interpolation() {
-                    Some(Interpolation::Held) => Feed::Hold(place),
-                    Some(Interpolation::Linear) => Feed::Lead(place),
-                    None => Feed::Note,
-                };
-                inputs.push(Input { name, initial: *initial, takes: Takes::Range(low, high), feed });
-            }
-            _ => {}
-        }
-    }
+    let inputs = stickslip_drive::inputs::inputs(scene);
     if inputs.len() > MOST_VALUES { Err(ChannelError::TooMany(inputs.len(), "inputs")) } else { Ok(inputs) }
-}
-
-/// Returns the command inputs of a generator.
-fn commands(name: &str, place: usize, generator: &Generator) -> impl Iterator<Item = Input> {
-    let ((least, most), (slowest, fastest)) = (generator.strokes, generator.frequencies);
-    let takes = [Takes::Range(least, most), Takes::Range(slowest, fastest), Takes::Sign, Takes::Count];
-    let initial = values(&generator.initial);
-    Part::ALL.into_iter().zip(takes).map(move |(part, takes)| Input {
-        name: format!("{name}.{}", part.name()),
-        initial: initial[part as usize],
-        takes,
-        feed: Feed::Command(place, part),
-    })
 }
 
 /// Returns the outputs with the given names, or by default the time and the positions and velocities of the bodies.

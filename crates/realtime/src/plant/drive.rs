@@ -1,8 +1,8 @@
 //! A simulated drive as a plant.
 
-use super::channels::{Feed, Reading};
-use super::commanded::Commanded;
+use super::channels::Reading;
 use super::{Input, Output, Plant, PlantError, Work, between, done};
+use stickslip_drive::inputs::{Commanded, Feed};
 use stickslip_drive::{Limits, Model, Plan, Run, RunError, State};
 use stickslip_drive::{Unrecorded, Watcher};
 
@@ -48,15 +48,7 @@ impl<'m> Drive<'m> {
             feed => feed,
         };
         let feeds: Vec<Feed> = inputs.iter().map(feed).collect();
-        let mut generators: Vec<Commanded> = Vec::new();
-        for feed in &feeds {
-            match *feed {
-                Feed::Command(place, _) if !generators.iter().any(|known| known.is_at(place)) => {
-                    generators.push(Commanded::new(place));
-                }
-                _ => {}
-            }
-        }
+        let generators = Commanded::all(feeds.iter().copied());
         let initial: Vec<f64> = inputs.iter().map(|input| input.initial).collect();
         let drive = Self {
             run,
@@ -93,10 +85,7 @@ impl<'m> Drive<'m> {
     #[inline]
     fn hear(&mut self, inputs: &[f64]) {
         for (feed, value) in self.feeds.iter().zip(inputs) {
-            let Feed::Command(place, part) = *feed else { continue };
-            for generator in self.generators.iter_mut().filter(|generator| generator.is_at(place)) {
-                generator.hear(part, *value);
-            }
+            self.generators.iter_mut().for_each(|generator| generator.hear(*feed, *value));
         }
     }
 

@@ -68,9 +68,9 @@ fn channels_and_ports_say_what_they_are() {
     assert!(lacking.is_empty(), "{lacking:?}");
     let x = channels.iter().find(|channel| channel.name == "slider.x_m").unwrap();
     assert_eq!(x.unit, "m");
-    let [generator] = &run.generators()[..] else { panic!("{:?}", run.generators()) };
-    assert_eq!((generator.unit, generator.range.0 <= generator.range.1), ("m", true));
-    assert!(run.inputs().is_empty());
+    let [stroke, frequency, heading, steps] = &run.inputs()[..] else { panic!("{:?}", run.inputs()) };
+    assert_eq!([stroke, frequency, heading, steps].map(|input| input.unit), ["m", "Hz", "", ""]);
+    assert!(stroke.takes.has(stroke.initial) && heading.takes.has(-1.0) && !heading.takes.has(0.0));
 }
 
 #[test]

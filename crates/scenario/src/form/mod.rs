@@ -8,6 +8,7 @@ mod contact;
 mod coupling;
 mod generator;
 mod input;
+mod interface;
 mod lengths;
 mod material;
 mod measured;
@@ -36,6 +37,7 @@ pub(crate) use contact::{
 pub(crate) use coupling::{DirectionForm, GravityForm, LoadForm, SpringForm, StopForm};
 pub(crate) use generator::{CycleForm, GeneratorForm, HeadingForm};
 pub(crate) use input::{Bounds, InputForm, InterpolationForm};
+pub(crate) use interface::InterfaceForm;
 pub(crate) use lengths::Lengths;
 pub(crate) use material::MaterialForm;
 pub(crate) use measured::{
@@ -140,4 +142,9 @@ pub(crate) struct Form {
     #[serde(default)]
     #[schemars(example = json!(["loop", "trajectory"]), example = json!([{ "x": "ball.u_m", "y": "ball.fx_N", "from": "90 ms" }]), transform = no_default)]
     pub(crate) plots: Vec<PlotForm>,
+    /// Inputs, outputs and parameters for a program that runs the scenario as a part of its own model, such as the host of an FMU. By
+    /// default these are all inputs and all columns.
+    #[serde(default, skip_serializing_if = "InterfaceForm::is_empty")]
+    #[schemars(example = json!({ "outputs": ["slider.x_m"], "parameters": ["contacts.ball.friction"] }))]
+    pub(crate) interface: InterfaceForm,
 }

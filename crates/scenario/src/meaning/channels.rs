@@ -7,13 +7,17 @@ use crate::suggest;
 use std::collections::{HashMap, HashSet};
 use stickslip_drive::Channel;
 
-/// Returns the indices of the channels with these names.
-pub(crate) fn places(names: &[String], channels: &[Channel]) -> Result<Vec<usize>, Fault> {
+/// Returns the indices of the channels with these names, which are those of the list `key` of a section.
+pub(crate) fn places(
+    [section, key]: [&'static str; 2],
+    names: &[String],
+    channels: &[Channel],
+) -> Result<Vec<usize>, Fault> {
     let known: HashMap<&str, usize> =
         channels.iter().enumerate().map(|(place, channel)| (channel.name.as_str(), place)).collect();
-    let output = At::ROOT;
-    let output = output.key("output");
-    let at = output.key("channels");
+    let (root, list) = (At::ROOT, format!("{section}.{key}"));
+    let section = root.key(section);
+    let at = section.key(key);
     let (mut places, mut taken) = (Vec::new(), HashSet::new());
     for (i, name) in names.iter().enumerate() {
         let at = at.index(i);
@@ -23,7 +27,7 @@ pub(crate) fn places(names: &[String], channels: &[Channel]) -> Result<Vec<usize
             return Err(fault.maybe_help(suggest::help(name, channels.iter().map(|c| c.name.as_str()))));
         };
         if !taken.insert(place) {
-            return Err(at.fault("this channel is already in the list").against(["output.channels"]));
+            return Err(at.fault("this channel is already in the list").against([list.as_str()]));
         }
         places.push(place);
     }

@@ -103,7 +103,7 @@ pub(crate) fn start(meaning: &Meaning) -> Result<(), Fault> {
     }
     let names = meaning.channels.as_deref().unwrap_or_default();
     let channels = model.channels();
-    channels::places(names, &channels)?;
+    channels::places(["output", "channels"], names, &channels)?;
     plots::check(&meaning.own_plots, &channels)
 }
 
