@@ -3,6 +3,7 @@
 pub(crate) mod compare;
 pub(crate) mod contact;
 pub(crate) mod curve;
+pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod golden;
 pub(crate) mod import;
@@ -28,6 +29,7 @@ use std::path::PathBuf;
 pub(crate) use compare::CompareArguments;
 pub(crate) use contact::ContactArguments;
 pub(crate) use curve::CurveArguments;
+pub(crate) use export::{ExportCommand, Fmi, FmuArguments};
 pub(crate) use fit::FitArguments;
 pub(crate) use import::ImportArguments;
 pub(crate) use map::MapArguments;
@@ -131,6 +133,9 @@ pub(crate) enum Command {
     /// Fit parameters of a scenario to a measured loop or trajectory: values, intervals, correlations
     #[command(long_about = fit::ABOUT, after_long_help = fit::EXAMPLES)]
     Fit(FitArguments),
+    /// Write a scenario for another program: as an FMU
+    #[command(subcommand)]
+    Export(ExportCommand),
     /// Run a drive in real time with inputs and outputs over UDP or shared memory
     #[command(long_about = realtime::ABOUT, after_long_help = realtime::EXAMPLES)]
     Realtime(Box<RealtimeArguments>),

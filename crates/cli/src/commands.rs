@@ -7,6 +7,7 @@ pub(crate) mod completions;
 pub(crate) mod contact;
 pub(crate) mod curve;
 pub(crate) mod explain;
+pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod golden;
 pub(crate) mod import;

@@ -9,8 +9,8 @@ mod commands;
 use arguments::{Arguments, Command, meant};
 use clap::FromArgMatches;
 use commands::{
-    branch, check, compare, completions, contact, curve, explain, fit, golden, import, info, map, materials,
-    measure, new, plot, realtime, repro, run, schema, sensitivity, steady, study,
+    branch, check, compare, completions, contact, curve, explain, export, fit, golden, import, info, map,
+    materials, measure, new, plot, realtime, repro, run, schema, sensitivity, steady, study,
 };
 use std::process::ExitCode;
 
@@ -29,6 +29,7 @@ fn main() -> ExitCode {
         Command::Contact(arguments) => contact::contact(&arguments),
         Command::Import(arguments) => import::import(&arguments),
         Command::Measure(arguments) => measure::measure(&arguments),
+        Command::Export(command) => export::export(&command),
         Command::Fit(arguments) => fit::fit(&arguments),
         Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
         Command::Branch(arguments) => branch::branch(&arguments),

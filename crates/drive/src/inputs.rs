@@ -33,6 +33,15 @@ pub enum Takes {
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
 impl Takes {
+    /// Returns the smallest and the largest value.
+    pub fn bounds(self) -> (f64, f64) {
+        match self {
+            Self::Range(low, high) => (low, high),
+            Self::Sign => (-1.0, 1.0),
+            Self::Count => (-1.0, MOST_STEPS),
+        }
+    }
+
     /// Returns whether a value is allowed. NaN is never allowed.
     #[inline]
     pub fn has(self, value: f64) -> bool {
@@ -77,6 +86,11 @@ impl Input {
     /// Returns whether the value is reached at the next communication point. Other values apply from the current time on.
     pub fn is_led(&self) -> bool {
         matches!(self.feed, Feed::Lead(_))
+    }
+
+    /// Returns whether the value is part of the command of a generator.
+    pub fn is_command(&self) -> bool {
+        matches!(self.feed, Feed::Command(..))
     }
 
     /// Returns the index of the waveform.

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::sync::{Arc, Mutex, MutexGuard};
 use stickslip_drive::Unrecorded;
-use stickslip_drive::inputs::{Input, Takes};
+use stickslip_drive::inputs::Input;
 use stickslip_run::{Job, Simulation, SimulationError};
 
 /// Simulation between two calls of `advance`. Calls from several threads are serialised.
@@ -114,11 +114,6 @@ impl Sim {
 
     /// Returns name, unit and range of each input.
     fn inputs(&self) -> Vec<(String, &'static str, (f64, f64))> {
-        let bounds = |takes| match takes {
-            Takes::Range(low, high) => (low, high),
-            Takes::Sign => (-1.0, 1.0),
-            Takes::Count => (-1.0, f64::INFINITY),
-        };
-        self.inputs.iter().map(|input| (input.name.clone(), input.unit, bounds(input.takes))).collect()
+        self.inputs.iter().map(|input| (input.name.clone(), input.unit, input.takes.bounds())).collect()
     }
 }

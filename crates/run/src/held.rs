@@ -5,7 +5,9 @@ use crate::job::Job;
 use self_cell::self_cell;
 use std::sync::Arc;
 use stickslip_drive::inputs::{Input, inputs};
-use stickslip_drive::{BytesError, Channel, Command, CommandError, InputError, Record, Run, RunError, State};
+use stickslip_drive::{
+    BytesError, Channel, Command, CommandError, InputError, Limits, Plan, Record, Run, RunError, State,
+};
 use stickslip_quantity::{columns::TRACE, names};
 use thiserror::Error;
 
@@ -78,7 +80,19 @@ impl Held {
     /// # Errors
     /// The same errors as for [`Run::new`].
     pub fn from_state(job: Arc<Job>, state: State) -> Result<Self, RunError> {
-        Cell::try_new(job, |job| Run::new(&job.model, &job.scenario.plan, state)).map(|cell| Self { cell })
+        let plan = job.scenario.plan;
+        Self::planned(job, state, &plan)
+    }
+
+    /// Creates a run with another plan: without rows and without limits on the numbers of steps and events.
+    pub(crate) fn unlimited(job: Arc<Job>, state: State) -> Result<Self, RunError> {
+        let limits = Limits { steps: u64::MAX, events: u64::MAX, wall: None };
+        let plan = Plan { every: None, until_steady: None, limits, ..job.scenario.plan };
+        Self::planned(job, state, &plan)
+    }
+
+    fn planned(job: Arc<Job>, state: State, plan: &Plan) -> Result<Self, RunError> {
+        Cell::try_new(job, |job| Run::new(&job.model, plan, state)).map(|cell| Self { cell })
     }
 
     /// Returns the job of the run.
@@ -115,8 +129,13 @@ impl Held {
     /// # Errors
     /// The bytes are damaged or belong to a scenario with another motion.
     pub fn from_bytes(job: Arc<Job>, bytes: &[u8]) -> Result<Self, HeldError> {
-        let state = State::from_bytes(&job.model, &model_key(&job.scenario), bytes)?;
+        let state = Self::state_of(&job, bytes)?;
         Ok(Self::from_state(job, state)?)
+    }
+
+    /// Returns the state from the bytes of [`Self::to_bytes`].
+    pub(crate) fn state_of(job: &Job, bytes: &[u8]) -> Result<State, BytesError> {
+        State::from_bytes(&job.model, &model_key(&job.scenario), bytes)
     }
 
     /// Advances the run, see [`Run::advance`].

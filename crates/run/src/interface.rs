@@ -2,6 +2,7 @@
 
 use crate::held::quantity_of;
 use crate::job::Job;
+use crate::seal::hash;
 use stickslip_drive::inputs::{Input, Takes, inputs};
 use stickslip_quantity::names;
 use stickslip_scenario::Parameter;
@@ -19,6 +20,8 @@ pub struct Variable {
     pub text: String,
     /// Role of the variable.
     pub role: Role,
+    /// Whether the value is continuous in time; a continuous input changes linearly over a step.
+    pub is_continuous: bool,
 }
 
 /// Role of a variable, with the place of its value.
@@ -36,6 +39,21 @@ pub enum Role {
 const INPUTS: u32 = 1_000_000;
 const PARAMETERS: u32 = 2_000_000;
 
+impl Variable {
+    /// Returns whether the values are integers: contact states, headings and numbers of steps.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        matches!(self.role, Role::Output(_, true) | Role::Input(_, _, Takes::Sign | Takes::Count))
+    }
+}
+
+/// Returns the token by which the binary of an FMU recognises its scenario, from the text of the scenario.
+#[must_use]
+pub fn token(text: &str) -> String {
+    let hash = hash(text);
+    format!("{{{}-{}-{}-{}-{}}}", &hash[..8], &hash[8..12], &hash[12..16], &hash[16..20], &hash[20..32])
+}
+
 /// Returns the variables of a job: outputs, inputs, parameters. The time has the reference 0 and is not among them.
 pub fn variables(job: &Job) -> Vec<Variable> {
     let channels = job.model.channels();
@@ -49,6 +67,7 @@ pub fn variables(job: &Job) -> Vec<Variable> {
             unit: quantity.unit,
             text: quantity.text.to_owned(),
             role: Role::Output(place, is_state),
+            is_continuous: !is_state,
         }
     });
     let is_chosen = |input: &Input| input.place().is_some_and(|place| job.interface.inputs.contains(&place));
@@ -59,6 +78,7 @@ pub fn variables(job: &Job) -> Vec<Variable> {
         reference: INPUTS + index as u32,
         unit: input.unit,
         role: Role::Input(index, input.initial, input.takes),
+        is_continuous: input.is_led(),
     });
     let parameter = |(index, parameter): (usize, &Parameter)| Variable {
         name: structured(&parameter.path),
@@ -66,6 +86,7 @@ pub fn variables(job: &Job) -> Vec<Variable> {
         unit: parameter.unit,
         text: "number of the scenario".to_owned(),
         role: Role::Parameter(index, parameter.value.unwrap_or_default()),
+        is_continuous: false,
     };
     outputs.chain(inputs).chain(job.interface.parameters.iter().enumerate().map(parameter)).collect()
 }

@@ -35,7 +35,8 @@ impl Simulation {
     pub fn new(job: Arc<Job>) -> Result<Self, RunError> {
         let inputs = inputs(&job.scenario.scene);
         let given = inputs.iter().map(|input| (input.initial, None)).collect();
-        Ok(Self::of(Held::new(job)?, inputs, given))
+        let start = job.start.clone();
+        Ok(Self::of(Held::unlimited(job, start)?, inputs, given))
     }
 
     fn of(held: Held, inputs: Vec<Input>, given: Vec<(f64, Option<f64>)>) -> Self {
@@ -57,6 +58,12 @@ impl Simulation {
     #[must_use]
     pub fn inputs(&self) -> &[Input] {
         &self.inputs
+    }
+
+    /// Returns the last value of an input; NaN for an unknown input.
+    #[must_use]
+    pub fn input(&self, index: usize) -> f64 {
+        self.given.get(index).map_or(f64::NAN, |(value, _)| *value)
     }
 
     /// Advances to a time, s, with values for inputs, as pairs of index and value.
@@ -154,7 +161,8 @@ impl Simulation {
     pub fn from_bytes(job: Arc<Job>, bytes: &[u8]) -> Result<Self, HeldError> {
         let inputs = inputs(&job.scenario.scene);
         let (state, behind) = bytes.split_at(bytes.len().saturating_sub(16 * inputs.len()));
-        let held = Held::from_bytes(job, state)?;
+        let state = Held::state_of(&job, state)?;
+        let held = Held::unlimited(job, state)?;
         let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
         let pairs = behind.chunks(16).map(|pair| {
             let (value, end) = pair.split_at(pair.len().min(8));

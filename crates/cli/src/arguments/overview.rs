@@ -9,7 +9,7 @@ const GROUPS: [(&str, &[&str]); 5] = [
     ("Every day", &["new", "check", "info", "run", "plot", "compare", "explain"]),
     ("Design a drive", &["curve", "steady", "branch", "sensitivity", "study", "map"]),
     ("Contacts and measured data", &["contact", "import", "measure", "fit"]),
-    ("Real time", &["realtime"]),
+    ("Other programs", &["export", "realtime"]),
     ("Verification and reference", &["golden", "repro", "materials", "schema", "completions"]),
 ];
 const TEMPLATE: &str = "{name} {version}: {about}\n\n{usage-heading} {usage}{after-help}";
