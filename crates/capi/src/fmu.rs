@@ -210,7 +210,8 @@ pub(crate) unsafe fn get<T>(
             return Err(format!("expected room for {count} values, got {room_for}"));
         }
         for (reference, found) in references.iter().zip(found) {
-            if *reference != 0 {
+            // Hosts that know no integers read all outputs as floating-point numbers.
+            if is_whole {
                 of_kind(fmu.instance.variable(*reference)?, is_whole)?;
             }
             *found = of(fmu.instance.get(*reference)?);

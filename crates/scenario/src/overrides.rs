@@ -10,7 +10,7 @@ use crate::syntax::{self, Read};
 use serde_json::{Map, Value};
 
 /// Optional sections that an override may create.
-const SECTIONS: [&str; 4] = ["run", "output", "figures", "gravity"];
+const SECTIONS: [&str; 5] = ["run", "output", "figures", "gravity", "interface"];
 /// Sections that are lists.
 const LISTS: [&str; 2] = ["loads", "plots"];
 /// Groups of keys that exclude each other.
