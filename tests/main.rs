@@ -13,6 +13,7 @@ mod curve;
 mod damaged_results;
 mod definitions;
 mod endings;
+mod export;
 mod fit;
 mod golden;
 mod guide;

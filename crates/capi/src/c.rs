@@ -103,8 +103,11 @@ pub unsafe extern "C" fn stickslip_create(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_free(simulation: *mut Stickslip) {
     if !simulation.is_null() {
-        // SAFETY: it is from `stickslip_create`, and the caller uses it no more.
-        let _ = said(|| Ok(drop(unsafe { Box::from_raw(simulation) })));
+        let _ = said(|| {
+            // SAFETY: it is from `stickslip_create`, and the caller uses it no more.
+            drop(unsafe { Box::from_raw(simulation) });
+            Ok(())
+        });
     }
 }
 
@@ -136,7 +139,7 @@ pub unsafe extern "C" fn stickslip_variable(
         let [name, unit, description] = [name, unit, description].map(|text| text.as_ptr());
         // SAFETY: the caller gives room for a variable.
         unsafe {
-            put(variable, StickslipVariable { name, unit, description, role, reference: known.reference })
+            put(variable, StickslipVariable { name, unit, description, role, reference: known.reference });
         };
         Ok(())
     };
@@ -191,7 +194,7 @@ pub unsafe extern "C" fn stickslip_start(simulation: *mut Stickslip) -> c_int {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_reset(simulation: *mut Stickslip) -> c_int {
     // SAFETY: by the contract of the header.
-    unsafe { with(simulation, |it| Ok(it.instance.reset())) }
+    unsafe { with(simulation, |it| it.instance.reset()) }
 }
 
 /// Advances to an absolute time, s.

@@ -78,7 +78,7 @@ calls! {
     fmi3EnterInitializationMode(_given: u8, _tolerance: f64, start: f64, _ends: u8, _stop: f64) |it| it.enter_initialisation(start);
     fmi3ExitInitializationMode() |it| it.exit_initialisation();
     fmi3Terminate() |it| it.terminate();
-    fmi3Reset() |it| Ok(it.reset());
+    fmi3Reset() |it| it.reset();
     fmi3EnterStepMode() |_it| Ok(());
 }
 

@@ -124,9 +124,9 @@ impl Fmu {
         Ok(())
     }
 
-    pub(crate) fn reset(&mut self) {
-        self.instance.reset();
+    pub(crate) fn reset(&mut self) -> Result<(), String> {
         self.phase = Phase::Created;
+        self.instance.reset()
     }
 
     /// Advances by a step; returns the time reached and whether the step ended early.
@@ -179,8 +179,11 @@ pub(crate) unsafe fn with(it: *mut c_void, act: impl FnOnce(&mut Fmu) -> Result<
 /// The pointer is null or from [`Fmu::create`], and the host uses it no more.
 pub(crate) unsafe fn free(it: *mut c_void) {
     if !it.is_null() {
-        // SAFETY: by the contract of this function.
-        let _ = guarded(|| Ok(drop(unsafe { Box::from_raw(it.cast::<Fmu>()) })));
+        let _ = guarded(|| {
+            // SAFETY: by the contract of this function.
+            drop(unsafe { Box::from_raw(it.cast::<Fmu>()) });
+            Ok(())
+        });
     }
 }
 

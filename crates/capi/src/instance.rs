@@ -1,10 +1,11 @@
 //! A simulation as a host sees it: variables by number, parameters before the start, steps, and a state that can be saved.
 
 use std::sync::Arc;
+use stickslip_drive::inputs::Input;
 use stickslip_drive::{Event, EventKind, Record};
 use stickslip_run::interface::{Role, Variable, variables};
 use stickslip_run::{Job, Simulation, SimulationError};
-use stickslip_scenario::Scenario;
+use stickslip_scenario::{Parameter, Scenario};
 
 /// First bytes of a saved state.
 const MARK: &[u8; 8] = b"stksl\x01\0\0";
@@ -137,7 +138,7 @@ impl Instance {
     }
 
     /// Ends the run; parameters and inputs have their initial values again.
-    pub(crate) fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) -> Result<(), String> {
         self.simulation = None;
         self.row.clear();
         self.inputs.iter_mut().for_each(|input| *input = None);
@@ -146,23 +147,25 @@ impl Instance {
                 self.parameters[index] = value;
             }
         }
+        Ok(())
     }
 
     fn begun(&self) -> Result<Simulation, String> {
-        Simulation::new(self.job()?).map_err(|error| error.to_string())
+        let job = self.job(&self.parameters, |index| self.inputs[index].map(|(value, _)| value))?;
+        Simulation::new(job).map_err(|error| error.to_string())
     }
 
-    /// Returns the job with the parameters and the initial values of inputs that have been set.
-    fn job(&self) -> Result<Arc<Job>, String> {
+    /// Returns the job with parameters and with initial values of inputs, by their indices.
+    fn job(&self, parameters: &[f64], starts: impl Fn(usize) -> Option<f64>) -> Result<Arc<Job>, String> {
         let mut set = Vec::new();
         for variable in &self.variables {
             match variable.role {
-                Role::Parameter(index, value) if self.parameters[index].to_bits() != value.to_bits() => {
+                Role::Parameter(index, value) if parameters[index].to_bits() != value.to_bits() => {
                     let path = self.given.interface.parameters[index].path.clone();
-                    set.push((path, format!("{:e}", self.parameters[index])));
+                    set.push((path, format!("{:e}", parameters[index])));
                 }
-                Role::Input(index, initial, _) => match self.inputs[index] {
-                    Some((value, _)) if value != initial => {
+                Role::Input(index, initial, _) => match starts(index) {
+                    Some(value) if value != initial => {
                         set.extend(self.initial_path(index).map(|path| (path, format!("{value:e}"))));
                     }
                     _ => {}
@@ -222,8 +225,7 @@ impl Instance {
         let event = first.at.filter(|at| *at < until);
         if let (Some(event), Some(before)) = (event, before) {
             // The same way again, up to the event. A linear input is there on its way.
-            let job = Arc::clone(simulation.held().job());
-            *simulation = Simulation::from_bytes(job, &before).map_err(|error| error.to_string())?;
+            *simulation = simulation.restored(&before).map_err(|error| error.to_string())?;
             let share = (event - now) / (until - now);
             let on_the_way = |(index, value): (usize, f64)| {
                 let from = simulation.input(index);
@@ -285,61 +287,39 @@ impl Instance {
         let count = self.parameters.len() + 2 * self.inputs.len();
         let other = || "the state is that of another scenario".to_owned();
         let (head, rest) = rest.split_at_checked(8 * count).ok_or_else(other)?;
-        let numbers: Vec<f64> = numbers(head).collect();
-        let (parameters, inputs) = numbers.split_at(self.parameters.len());
+        let head: Vec<f64> = numbers(head).collect();
+        let (parameters, inputs) = head.split_at(self.parameters.len());
         let inputs = inputs.chunks(2).map(|pair| match pair {
             [value, is_new] if value.is_finite() => Some((*value, *is_new != 0.0)),
             _ => None,
         });
-        let mut restored = Self {
-            given: Arc::clone(&self.given),
-            variables: Vec::new(),
-            parameters: parameters.to_vec(),
-            inputs: inputs.collect(),
-            simulation: None,
-            row: Vec::new(),
+        let inputs: Vec<Option<(f64, bool)>> = inputs.collect();
+        let simulation = if rest.is_empty() {
+            None
+        } else {
+            let (starts, run) = rest.split_at_checked(8 * self.inputs.len()).ok_or_else(other)?;
+            let starts: Vec<f64> = numbers(starts).collect();
+            // The job of the run is the right one, unless parameters or initial inputs differ.
+            let running = self.simulation.as_ref();
+            let running = running.filter(|running| is_of(running.held().job(), parameters, &starts));
+            let restored = match running {
+                Some(running) => running.restored(run),
+                None => Simulation::from_bytes(self.job(parameters, |index| Some(starts[index]))?, run),
+            };
+            Some(restored.map_err(|error| error.to_string())?)
         };
-        std::mem::swap(&mut restored.variables, &mut self.variables);
-        let run = restored.restored_run(rest, self.simulation.as_ref());
-        std::mem::swap(&mut restored.variables, &mut self.variables);
-        let simulation = run.map_err(|error| if error.is_empty() { other() } else { error })?;
-        (self.parameters, self.inputs, self.simulation) = (restored.parameters, restored.inputs, simulation);
+        (self.parameters, self.inputs, self.simulation) = (parameters.to_vec(), inputs, simulation);
         self.row.clear();
         Ok(())
     }
+}
 
-    /// Returns the run from its bytes. The job is that of `running`, where parameters and initial inputs are the same.
-    fn restored_run(&self, bytes: &[u8], running: Option<&Simulation>) -> Result<Option<Simulation>, String> {
-        if bytes.is_empty() {
-            return Ok(None);
-        }
-        let (starts, bytes) = bytes.split_at_checked(8 * self.inputs.len()).ok_or_else(String::new)?;
-        let mut begun = Self {
-            given: Arc::clone(&self.given),
-            variables: self.variables.clone(),
-            parameters: self.parameters.clone(),
-            inputs: numbers(starts).map(|value| Some((value, false))).collect(),
-            simulation: None,
-            row: Vec::new(),
-        };
-        let job = match running.map(|simulation| simulation.held().job()) {
-            Some(job) if begun.is_of(job) => Arc::clone(job),
-            _ => begun.job()?,
-        };
-        begun.inputs.clear();
-        Simulation::from_bytes(job, bytes).map(Some).map_err(|error| error.to_string())
-    }
-
-    /// Returns whether a job has these parameters and initial inputs.
-    fn is_of(&self, job: &Job) -> bool {
-        let starts = stickslip_drive::inputs::inputs(&job.scenario.scene);
-        let inputs = self.inputs.iter().zip(&starts);
-        let parameters = self.parameters.iter().zip(&job.interface.parameters);
-        inputs.fold(true, |same, (a, b)| {
-            same && a.is_none_or(|(value, _)| value.to_bits() == b.initial.to_bits())
-        }) && parameters
-            .fold(true, |same, (a, b)| same && b.value.is_some_and(|b| b.to_bits() == a.to_bits()))
-    }
+/// Returns whether a job has these parameters and initial values of inputs.
+fn is_of(job: &Job, parameters: &[f64], starts: &[f64]) -> bool {
+    let inputs = stickslip_drive::inputs::inputs(&job.scenario.scene);
+    let is_start = |(start, input): (&f64, &Input)| start.to_bits() == input.initial.to_bits();
+    let is_value = |(value, known): (&f64, &Parameter)| known.value.is_some_and(|known| known == *value);
+    starts.iter().zip(&inputs).all(is_start) && parameters.iter().zip(&job.interface.parameters).all(is_value)
 }
 
 /// Returns the numbers in little-endian bytes.

@@ -50,7 +50,7 @@ fn main() -> ExitCode {
     ExitCode::from(verdict.max(stickslip_console::answer::verdict()).code())
 }
 
-/// C functions that dependencies call by name (progress bar, Parquet writer). They replace those of the machine's C
+/// C functions that dependencies call by name (progress bar, Parquet writer, packing of FMUs). They replace those of the machine's C
 /// library, so that results are the same everywhere.
 mod shared_names {
     /// x^y.
@@ -65,6 +65,13 @@ mod shared_names {
     #[unsafe(no_mangle)]
     extern "C" fn log(x: f64) -> f64 {
         math::ln(x)
+    }
+
+    /// Binary logarithm.
+    #[expect(unsafe_code, reason = "a name that C libraries define as well; the function is safe")]
+    #[unsafe(no_mangle)]
+    extern "C" fn log2(x: f64) -> f64 {
+        math::log2(x)
     }
 
     /// Decimal logarithm.

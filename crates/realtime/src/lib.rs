@@ -9,7 +9,7 @@
 //! In reading order: [`plant`], [`pace`], [`histogram`], [`worst`]; [`wire`] (packet format), [`intake`], [`source`], [`sink`], [`region`]
 //! (shared memory) with `seqlock` and [`memory`]; [`tape`] with `ring`, [`film`]; [`session`], [`probe`], [`report`]; [`system`].
 //!
-//! In the workspace, only this crate contains unsafe code. All unsafe code is in [`memory`] and [`system`], and each use is justified.
+//! In the workspace, only this crate and the C interface contain unsafe code. All of it here is in [`memory`] and [`system`], and each use is justified.
 
 pub mod film;
 pub mod histogram;

@@ -120,8 +120,13 @@ impl Held {
     /// Returns the state in binary form. Another process can continue the run from these bytes by [`Self::from_bytes`].
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        self.bytes_with(&model_key(&self.job().scenario))
+    }
+
+    /// Returns the state in binary form, with the known key of its motion.
+    pub(crate) fn bytes_with(&self, key: &[u8; 32]) -> Vec<u8> {
         let job = self.job();
-        self.with_state(|state| state.to_bytes(&job.model, &model_key(&job.scenario)))
+        self.with_state(|state| state.to_bytes(&job.model, key))
     }
 
     /// Creates a run from the bytes of [`Self::to_bytes`]. Both scenarios must have the same motion: equal [`model_key`].
@@ -129,13 +134,8 @@ impl Held {
     /// # Errors
     /// The bytes are damaged or belong to a scenario with another motion.
     pub fn from_bytes(job: Arc<Job>, bytes: &[u8]) -> Result<Self, HeldError> {
-        let state = Self::state_of(&job, bytes)?;
+        let state = State::from_bytes(&job.model, &model_key(&job.scenario), bytes)?;
         Ok(Self::from_state(job, state)?)
-    }
-
-    /// Returns the state from the bytes of [`Self::to_bytes`].
-    pub(crate) fn state_of(job: &Job, bytes: &[u8]) -> Result<State, BytesError> {
-        State::from_bytes(&job.model, &model_key(&job.scenario), bytes)
     }
 
     /// Advances the run, see [`Run::advance`].

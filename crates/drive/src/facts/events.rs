@@ -20,6 +20,8 @@ const PER_RINGING: Pace = Pace { pressed: 3.0, coupled: 4.0 };
 const PER_TURNS: Pace = Pace { pressed: 4.0, coupled: 8.0 };
 /// Events of a contact per landing: touch, slip, reversal, lift-off.
 const PER_LANDING: f64 = 4.0;
+/// Events of a contact without friction per landing: touch and lift-off.
+const PER_SMOOTH_LANDING: f64 = 2.0;
 /// Events of a free body per corner of a waveform, without oscillations: beginning and end of gross slip.
 const PER_FLYBACK: f64 = 2.0;
 /// Number of time constants until a damped oscillation has decayed to 5 %.
@@ -177,7 +179,7 @@ fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequenc
 }
 
 /// Returns the estimated number of events of contact `c` in the run: reversals by waveforms, the longest free oscillation, and landings.
-/// The number is 0 for a contact without friction or never pressed.
+/// The number is 0 for a contact that is never pressed.
 fn of_contact(
     setup: Setup<'_>,
     c: usize,
@@ -187,9 +189,13 @@ fn of_contact(
     let Setup { scene, model, start } = setup;
     let Some(contact) = scene.contacts.get(c).map(|contact| &contact.part) else { return 0.0 };
     let Some(d) = model.indentations(start, c) else { return 0.0 };
-    // Without load or friction the contact has no events of its own.
-    if d.most <= 0.0 || contact.interface.friction() == 0.0 {
+    // Without load the contact has no events of its own, and without friction only those of its landings.
+    if d.most <= 0.0 {
         return 0.0;
+    }
+    let landings = landings(scene, (-d.start, closing(scene, contact)), duration);
+    if contact.interface.friction() == 0.0 {
+        return PER_SMOOTH_LANDING * landings;
     }
     let (per_ringing, per_turns) = (PER_RINGING.of(contact.normal), PER_TURNS.of(contact.normal));
     // The fastest mode that moves it causes the most reversals.
@@ -227,7 +233,7 @@ fn of_contact(
     // Oscillations that corners excite are counted already.
     let from_start = ringing.filter(|mode| rings_from_start(setup, c, mode.frequency));
     most = most.max(from_start.map_or(0.0, |_| rings(duration, 1.0)));
-    turns + most + PER_LANDING * landings(scene, (-d.start, closing(scene, contact)), duration)
+    turns + most + PER_LANDING * landings
 }
 
 /// Returns the waveforms that move or load contact `c`, directly or through free bodies connected with it. The flag of a waveform is set if
