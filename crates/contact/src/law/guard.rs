@@ -186,7 +186,7 @@ impl Guard {
         (dead * unit + rounding, near * unit + 2.0 * rounding)
     }
 
-    /// Returns the rounding of velocities of bodies at a distance `travel` (m) from their origins, m/s: [`NOISE`] ε·travel·ω. It
+    /// Returns the rounding of velocities of bodies at a distance `travel` (m) from their origins, m/s: `NOISE` ε·travel·ω. It
     /// is 0 for event functions that are lengths.
     pub fn noise(self, site: &impl Site, travel: f64) -> f64 {
         match self {
