@@ -94,7 +94,7 @@ fn third_cycles() -> Result<ThirdCycles, ValidationError> {
 
 pub(crate) fn belt() -> Result<Page, ValidationError> {
     let y = (LIMITS[0] - LIMITS[1]) * FREQUENCY / (STIFFNESS * SPEED);
-    let amplitude = (LIMITS[0] - LIMITS[1]).hypot(STIFFNESS * SPEED / FREQUENCY);
+    let amplitude = math::hypot(LIMITS[0] - LIMITS[1], STIFFNESS * SPEED / FREQUENCY);
     let rigid = [slip(y), 2.0 * y, (LIMITS[1] + amplitude) / LIMITS[0]];
     let (mut table, found, path) = third_cycles()?;
     let cells = [places(rigid[0], 5), places(rigid[1], 5), places(rigid[2], 5)];
