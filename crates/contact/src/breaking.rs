@@ -148,11 +148,10 @@ impl Memory {
         }
     }
 
-    /// Returns the first leg of a straight path.
-    fn leg(&self, [law, kinetic]: [&Interface; 2], to: Apex) -> Leg {
+    /// Returns the first leg of what is left of a straight path that began at `start`.
+    fn leg(&self, [law, kinetic]: [&Interface; 2], start: Apex, to: Apex) -> Leg {
         let (from, sense) = (self.apex(), self.slides());
-        let goes = |sense: f64| sense * (to.u - from.u) > kinetic.stick_slope() * (to.d - from.d);
-        if sense != 0.0 && (to == from || goes(sense)) {
+        if sense != 0.0 && (to == from || goes_on(kinetic, sense, [start, to])) {
             return Leg::Slides;
         }
         // A contact that touches on the way begins with unstretched springs.
@@ -226,9 +225,9 @@ impl Memory {
         one: impl Fn(&mut Self, &Interface, Segment) -> Result<f64, ContactError>,
     ) -> Result<f64, ContactError> {
         self.check(law, to)?;
-        let mut friction = 0.0;
+        let (start, mut friction) = (self.apex(), 0.0);
         for _ in 0..MOST_BREAKS {
-            match self.leg([law, kinetic], to) {
+            match self.leg([law, kinetic], start, to) {
                 Leg::Slides => return Ok(friction + one(self, kinetic, Segment::Straight(to))?),
                 Leg::Holds => break,
                 Leg::Breaks(at, sense) => {
@@ -266,11 +265,11 @@ impl Memory {
         to: Apex,
         one: impl Fn(&Self, &Interface) -> Response,
     ) -> Response {
-        match self.leg([law, kinetic], to) {
+        match self.leg([law, kinetic], self.apex(), to) {
             Leg::Slides => one(self, kinetic),
             Leg::Holds => one(self, self.law(law)),
             Leg::Breaks(at, sense) => {
-                if at == to || sense * (to.u - at.u) > kinetic.stick_slope() * (to.d - at.d) {
+                if at == to || goes_on(kinetic, sense, [self.apex(), to]) {
                     return self.gross(kinetic, sense, to.d);
                 }
                 // It sticks again on the way, where the load falls: rare enough for a copy.
@@ -304,7 +303,7 @@ impl Memory {
         to: Apex,
         one: impl Fn(&Self, &Interface) -> Outcome,
     ) -> Outcome {
-        match self.leg([law, kinetic], to) {
+        match self.leg([law, kinetic], self.apex(), to) {
             Leg::Slides => one(self, kinetic),
             Leg::Holds => one(self, self.law(law)),
             Leg::Breaks(..) => {
@@ -316,4 +315,11 @@ impl Memory {
             }
         }
     }
+}
+
+/// Returns whether a contact that slides in a direction goes on sliding along a straight path.
+///
+/// The whole path tells the direction. Of what is left of it where a contact breaks loose, only rounding may remain.
+fn goes_on(kinetic: &Interface, sense: f64, [start, to]: [Apex; 2]) -> bool {
+    sense * (to.u - start.u) > kinetic.stick_slope() * (to.d - start.d)
 }

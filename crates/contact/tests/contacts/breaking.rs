@@ -188,3 +188,35 @@ fn random_paths_agree_with_a_plain_sum_over_springs() {
     }
     assert!(broke > 300 && released > 100, "{broke} {released}");
 }
+
+/// Paths that end at the static limit, or beyond it by rounding, go on sliding: a contact that has broken loose on a path that is steeper
+/// than the kinetic limit does not stick again on the same path.
+#[test]
+fn rounding_at_the_limit_does_not_make_a_contact_stick_again() {
+    let law = law();
+    let (rows, slope) = (springs(&law, 400), law.stick_slope());
+    for (k, engine) in
+        (0..400).map(|k| (k, if k % 2 == 0 { Engine::Curve } else { Engine::Row(Arc::clone(&rows)) }))
+    {
+        let depth = 0.1 * DEPTH * (1.0 + 0.013 * f64::from(k));
+        let lowest = if k % 2 == 0 { 0.0 } else { rows.height_of_reduced_force(0.0) };
+        let start = Apex { d: depth, u: 3e-7 * f64::from(k) };
+        // All springs slip where u - u₀ = κ_s (d - h) for the lowest spring.
+        let steep = slope * (1.2 + 0.01 * f64::from(k % 50));
+        let way = slope * (depth - lowest) / (steep - slope);
+        for places in -12..=12 {
+            let way = way * (1.0 + f64::from(places) * f64::EPSILON);
+            let to = Apex { d: start.d + way, u: start.u + steep * way };
+            if to.d > 1.5 * DEPTH {
+                continue;
+            }
+            let mut memory = engine.memory(&law, start);
+            let trial = memory.trial(&law, Move::Chord(to)).force;
+            memory.commit(&law, Segment::Straight(to)).unwrap();
+            let force = memory.force(&law, to) / law.normal_force(to.d);
+            let wanted = if memory.slides() == 0.0 { STATIC } else { KINETIC };
+            assert!((force / wanted - 1.0).abs() < 0.01, "{k} {places}: {force}, {}", memory.slides());
+            assert!((trial / law.normal_force(to.d) / wanted - 1.0).abs() < 0.01, "{k} {places}: {trial}");
+        }
+    }
+}
