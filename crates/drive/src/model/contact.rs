@@ -183,7 +183,8 @@ impl Surroundings<'_> {
                 let free = |d: &Measure| d.mobility(|i| self.free[i].mobility);
                 let mobility = contact.coupling().map_or(0.0, free);
                 let impact = (1.0 / (mobility * contact.count), speed);
-                let time = contact.interface.damping_of_restitution(impact, coefficient);
+                // A row of springs is as wide as the scene needs, and the impact may be harder.
+                let time = part.interface.damping_of_restitution(impact, coefficient);
                 time.ok_or((Field::Restitution, SceneFault::Restitution(coefficient)))
             }
         }

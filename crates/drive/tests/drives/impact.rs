@@ -210,6 +210,20 @@ fn an_oblique_damped_impact_is_that_of_rows_and_of_fixed_steps() {
     }
 }
 
+/// The speed of the restitution asked for is 30 times that of the impact, for which a row of springs is made. Both engines rebound alike.
+#[test]
+fn a_row_has_the_damping_of_its_profile() {
+    let mut scene = ball(like(0.3), 0.0);
+    let part = &mut scene.contacts[0].part;
+    part.normal_damping = NormalDamping::Restitution { coefficient: 0.5, speed: 30.0 * SPEED };
+    let span = 2.0 * contact_time();
+    let [curve, row] = [scene.clone(), crate::lottery::on_rows(&scene, 2000)].map(|scene| {
+        let (model, state) = end(&scene, &event(1e-9, span));
+        state.coordinate(&model, 0, Axis::Z).unwrap().1 / SPEED
+    });
+    assert!(curve < 0.8 && (curve - row).abs() < 1e-5, "{curve} {row}");
+}
+
 /// A damped punch that falls without weight rebounds alike from 100 heights, of which some put the touch before d = 0 by rounding.
 #[test]
 fn a_damped_impact_does_not_depend_on_the_height_of_the_fall() {
