@@ -1,7 +1,7 @@
 //! Functions of FMI 2.0 for co-simulation; the standard describes them.
 #![allow(non_snake_case, reason = "names of the standard")]
 
-use crate::fmu::{self, ERROR, Fmu, Log, Logger, OK, begins_at_zero};
+use crate::fmu::{self, ERROR, Fmu, Log, Logger, absent, begins_at_zero, calls, states};
 use crate::pointers::{for_c, text};
 use std::ffi::{c_char, c_int, c_void};
 use std::path::PathBuf;
@@ -86,17 +86,6 @@ unsafe extern "C" fn fmi2FreeInstance(it: *mut c_void) {
     unsafe { fmu::free(it) }
 }
 
-/// Functions whose body is that of an instance.
-macro_rules! calls {
-    ($($name:ident($($argument:ident: $kind:ty),*) |$it:ident| $body:expr;)*) => {$(
-        #[unsafe(no_mangle)]
-        unsafe extern "C" fn $name(it: *mut c_void $(, $argument: $kind)*) -> c_int {
-            // SAFETY: the host gives an instance of fmi2Instantiate, or null.
-            unsafe { fmu::with(it, |$it: &mut Fmu| $body) }
-        }
-    )*};
-}
-
 calls! {
     fmi2SetDebugLogging(_on: c_int, _count: usize, _categories: *const *const c_char) |_it| Ok(());
     fmi2SetupExperiment(_given: c_int, _tolerance: f64, start: f64, _ends: c_int, _stop: f64) |_it| begins_at_zero(start);
@@ -152,66 +141,8 @@ unsafe extern "C" fn fmi2SetInteger(
     unsafe { fmu::set(it, (references, count), (values, count), (true, f64::from)) }
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2GetFMUstate(it: *mut c_void, state: *mut *mut c_void) -> c_int {
-    // SAFETY: the host gives an instance and the place of a state.
-    unsafe { fmu::save(it, state) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SetFMUstate(it: *mut c_void, state: *const c_void) -> c_int {
-    // SAFETY: the host gives an instance and a state.
-    unsafe { fmu::restore(it, state) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2FreeFMUstate(_it: *mut c_void, state: *mut *mut c_void) -> c_int {
-    // SAFETY: the host gives the place of a state.
-    unsafe { fmu::forget(state) };
-    OK
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    it: *mut c_void,
-    state: *const c_void,
-    size: *mut usize,
-) -> c_int {
-    // SAFETY: the host gives an instance, a state and a place.
-    unsafe { fmu::size(it, state, size) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2SerializeFMUstate(
-    it: *mut c_void,
-    state: *const c_void,
-    bytes: *mut u8,
-    count: usize,
-) -> c_int {
-    // SAFETY: the host gives an instance, a state and room.
-    unsafe { fmu::serialise(it, state, bytes, count) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    it: *mut c_void,
-    bytes: *const u8,
-    count: usize,
-    state: *mut *mut c_void,
-) -> c_int {
-    // SAFETY: the host gives an instance, bytes and the place of a state.
-    unsafe { fmu::deserialise(it, (bytes, count), state) }
-}
-
-/// Functions for variables of types that do not exist here: nothing to do for no variable, otherwise an error.
-macro_rules! absent {
-    ($($name:ident)*) => {$(
-        #[unsafe(no_mangle)]
-        unsafe extern "C" fn $name(it: *mut c_void, _references: *const u32, count: usize) -> c_int {
-            // SAFETY: the host gives an instance, or null.
-            unsafe { fmu::with(it, |_| fmu::none(stringify!($name), count)) }
-        }
-    )*};
+states! {
+    fmi2GetFMUstate fmi2SetFMUstate fmi2FreeFMUstate fmi2SerializedFMUstateSize fmi2SerializeFMUstate fmi2DeSerializeFMUstate
 }
 
 absent! {

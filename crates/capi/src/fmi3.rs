@@ -1,7 +1,7 @@
 //! Functions of FMI 3.0; the standard describes them. Co-simulation is supported, with early return at slip events.
 #![allow(non_snake_case, reason = "names of the standard")]
 
-use crate::fmu::{self, Fmu, Log, Logger, OK};
+use crate::fmu::{self, Fmu, Log, Logger, absent, calls, states};
 use crate::pointers::{for_c, put, text};
 use std::ffi::{c_char, c_int, c_void};
 use std::path::Path;
@@ -60,17 +60,6 @@ kinds! {
 unsafe extern "C" fn fmi3FreeInstance(it: *mut c_void) {
     // SAFETY: the host gives an instance of fmi3InstantiateCoSimulation, or null.
     unsafe { fmu::free(it) }
-}
-
-/// Functions whose body is that of an instance.
-macro_rules! calls {
-    ($($name:ident($($argument:ident: $kind:ty),*) |$it:ident| $body:expr;)*) => {$(
-        #[unsafe(no_mangle)]
-        unsafe extern "C" fn $name(it: *mut c_void $(, $argument: $kind)*) -> c_int {
-            // SAFETY: the host gives an instance of fmi3InstantiateCoSimulation, or null.
-            unsafe { fmu::with(it, |$it: &mut Fmu| $body) }
-        }
-    )*};
 }
 
 calls! {
@@ -133,66 +122,8 @@ values! {
     fmi3GetInt64 fmi3SetInt64 i64, true, |value| value as i64, |value| value as f64;
 }
 
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi3GetFMUState(it: *mut c_void, state: *mut *mut c_void) -> c_int {
-    // SAFETY: the host gives an instance and the place of a state.
-    unsafe { fmu::save(it, state) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi3SetFMUState(it: *mut c_void, state: *const c_void) -> c_int {
-    // SAFETY: the host gives an instance and a state.
-    unsafe { fmu::restore(it, state) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi3FreeFMUState(_it: *mut c_void, state: *mut *mut c_void) -> c_int {
-    // SAFETY: the host gives the place of a state.
-    unsafe { fmu::forget(state) };
-    OK
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi3SerializedFMUStateSize(
-    it: *mut c_void,
-    state: *const c_void,
-    size: *mut usize,
-) -> c_int {
-    // SAFETY: the host gives an instance, a state and a place.
-    unsafe { fmu::size(it, state, size) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi3SerializeFMUState(
-    it: *mut c_void,
-    state: *const c_void,
-    bytes: *mut u8,
-    count: usize,
-) -> c_int {
-    // SAFETY: the host gives an instance, a state and room.
-    unsafe { fmu::serialise(it, state, bytes, count) }
-}
-
-#[unsafe(no_mangle)]
-unsafe extern "C" fn fmi3DeserializeFMUState(
-    it: *mut c_void,
-    bytes: *const u8,
-    count: usize,
-    state: *mut *mut c_void,
-) -> c_int {
-    // SAFETY: the host gives an instance, bytes and the place of a state.
-    unsafe { fmu::deserialise(it, (bytes, count), state) }
-}
-
-/// Functions for variables of types that do not exist here: nothing to do for no variable, otherwise an error.
-macro_rules! absent {
-    ($($name:ident)*) => {$(
-        #[unsafe(no_mangle)]
-        unsafe extern "C" fn $name(it: *mut c_void, _references: *const u32, count: usize) -> c_int {
-            // SAFETY: the host gives an instance, or null.
-            unsafe { fmu::with(it, |_| fmu::none(stringify!($name), count)) }
-        }
-    )*};
+states! {
+    fmi3GetFMUState fmi3SetFMUState fmi3FreeFMUState fmi3SerializedFMUStateSize fmi3SerializeFMUState fmi3DeserializeFMUState
 }
 
 absent! {

@@ -364,3 +364,82 @@ pub(crate) unsafe fn deserialise(
     // SAFETY: by the contract of this function.
     unsafe { with(it, read) }
 }
+
+/// Functions whose body is that of an instance.
+macro_rules! calls {
+    ($($name:ident($($argument:ident: $kind:ty),*) |$it:ident| $body:expr;)*) => {$(
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $name(it: *mut c_void $(, $argument: $kind)*) -> c_int {
+            // SAFETY: the host gives an instance of this FMU, or null.
+            unsafe { $crate::fmu::with(it, |$it: &mut $crate::fmu::Fmu| $body) }
+        }
+    )*};
+}
+
+pub(crate) use calls;
+
+/// Functions for variables of types that do not exist here: nothing to do for no variable, otherwise an error.
+macro_rules! absent {
+    ($($name:ident)*) => {$(
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $name(it: *mut c_void, _references: *const u32, count: usize) -> c_int {
+            // SAFETY: the host gives an instance, or null.
+            unsafe { $crate::fmu::with(it, |_| $crate::fmu::none(stringify!($name), count)) }
+        }
+    )*};
+}
+
+pub(crate) use absent;
+
+/// Functions that save, restore, free, measure, serialise and deserialise a state.
+macro_rules! states {
+    ($save:ident $restore:ident $free:ident $size:ident $serialise:ident $deserialise:ident) => {
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $save(it: *mut c_void, state: *mut *mut c_void) -> c_int {
+            // SAFETY: the host gives an instance and the place of a state.
+            unsafe { $crate::fmu::save(it, state) }
+        }
+
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $restore(it: *mut c_void, state: *const c_void) -> c_int {
+            // SAFETY: the host gives an instance and a state.
+            unsafe { $crate::fmu::restore(it, state) }
+        }
+
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $free(_it: *mut c_void, state: *mut *mut c_void) -> c_int {
+            // SAFETY: the host gives the place of a state.
+            unsafe { $crate::fmu::forget(state) };
+            $crate::fmu::OK
+        }
+
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $size(it: *mut c_void, state: *const c_void, size: *mut usize) -> c_int {
+            // SAFETY: the host gives an instance, a state and a place.
+            unsafe { $crate::fmu::size(it, state, size) }
+        }
+
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $serialise(
+            it: *mut c_void,
+            state: *const c_void,
+            bytes: *mut u8,
+            count: usize,
+        ) -> c_int {
+            // SAFETY: the host gives an instance, a state and room.
+            unsafe { $crate::fmu::serialise(it, state, bytes, count) }
+        }
+
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $deserialise(
+            it: *mut c_void,
+            bytes: *const u8,
+            count: usize,
+            state: *mut *mut c_void,
+        ) -> c_int {
+            // SAFETY: the host gives an instance, bytes and the place of a state.
+            unsafe { $crate::fmu::deserialise(it, (bytes, count), state) }
+        }
+    };
+}
+pub(crate) use states;

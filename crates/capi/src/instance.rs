@@ -1,5 +1,6 @@
 //! A simulation as a host sees it: variables by number, parameters before the start, steps, and a state that can be saved.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 use stickslip_drive::inputs::Input;
 use stickslip_drive::{Event, EventKind, Record};
@@ -17,6 +18,8 @@ pub(crate) struct Instance {
     /// Job with the parameters and initial inputs of the scenario.
     given: Arc<Job>,
     pub(crate) variables: Vec<Variable>,
+    /// Indices of the variables by their references.
+    places: HashMap<u32, usize>,
     /// Values of the parameters.
     parameters: Vec<f64>,
     /// Values of inputs that have been set, by the index of the input, and whether the run does not know them yet.
@@ -52,6 +55,7 @@ impl Instance {
         let inputs = vec![None; inputs.max().unwrap_or(0)];
         Ok(Self {
             parameters: parameters.collect(),
+            places: variables.iter().enumerate().map(|(place, it)| (it.reference, place)).collect(),
             variables,
             inputs,
             given: Arc::new(job),
@@ -71,7 +75,7 @@ impl Instance {
 
     /// Returns the variable with a reference.
     pub(crate) fn variable(&self, reference: u32) -> Result<&Variable, String> {
-        let found = self.variables.iter().find(|variable| variable.reference == reference);
+        let found = self.places.get(&reference).and_then(|place| self.variables.get(*place));
         found.ok_or_else(|| format!("there is no variable with the reference {reference}"))
     }
 
