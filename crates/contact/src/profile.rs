@@ -199,8 +199,8 @@ impl Profile {
 
     /// Returns the gap f(r) of the undeformed bodies, m, at the distance r ≥ 0 (m) from the axis.
     ///
-    /// Returns `None` beyond a flat punch, a sphere or the last point of a table, and for a list of springs, asperities, graded bodies and a normal law. For a
-    /// power law f = g/`κ_n` (4.20), so r²/2R for the paraboloid.
+    /// Returns `None` beyond a flat punch, a sphere or the last point of a table, and for a list of springs, asperities, graded bodies and a
+    /// normal law. For a power law f = g/`κ_n` (4.20), so r²/2R for the paraboloid.
     pub fn gap(&self, r: f64) -> Option<f64> {
         if r.is_nan() || r < 0.0 {
             return None;

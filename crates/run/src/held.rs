@@ -6,7 +6,7 @@ use self_cell::self_cell;
 use std::sync::Arc;
 use stickslip_drive::inputs::{Input, inputs};
 use stickslip_drive::{
-    BytesError, Channel, Command, CommandError, InputError, Limits, Plan, Record, Run, RunError, State,
+    BytesError, Channel, Command, CommandError, InputError, Plan, Record, Run, RunError, State,
 };
 use stickslip_quantity::{columns::TRACE, names};
 use thiserror::Error;
@@ -84,10 +84,9 @@ impl Held {
         Self::planned(job, state, &plan)
     }
 
-    /// Creates a run with another plan: without rows and without limits on the numbers of steps and events.
-    pub(crate) fn unlimited(job: Arc<Job>, state: State) -> Result<Self, RunError> {
-        let limits = Limits { steps: u64::MAX, events: u64::MAX, wall: None };
-        let plan = Plan { every: None, until_steady: None, limits, ..job.scenario.plan };
+    /// Creates a run that computes no rows on its way.
+    pub(crate) fn without_rows(job: Arc<Job>, state: State) -> Result<Self, RunError> {
+        let plan = Plan { every: None, until_steady: None, ..job.scenario.plan };
         Self::planned(job, state, &plan)
     }
 

@@ -7,7 +7,8 @@
 //! In reading order:
 //!
 //! * [`Job`] (a prepared scenario) with its `limits`; [`info`] (properties known before the run); [`Columns`] of tables; [`program`];
-//! * a run: [`Watcher`], [`Recorder`], [`Outcome`] (its results), [`Held`] (a run that the caller advances), [`Simulation`] with [`interface`] (for other programs), [`Table`] (rows in memory);
+//! * a run: [`Watcher`], [`Recorder`], [`Outcome`] (its results), [`Table`] (rows in memory); [`Held`] (a run that the caller advances),
+//!   [`Simulation`] with [`interface`] (for other programs);
 //! * [`Kept`]: results in memory; `table`, `insides` and `sheet` with `digest`: tables on disk, named in [`files`], each with its [`Seal`];
 //!   [`folder`]: atomic publishing of results on a `disk`; [`fingerprint`]: digests of tables;
 //! * [`summary`] with [`Real`] and [`Parts`]; [`warning`];

@@ -39,7 +39,7 @@ impl Simulation {
         let inputs = inputs(&job.scenario.scene);
         let given = inputs.iter().map(|input| (input.initial, None)).collect();
         let start = job.start.clone();
-        Ok(Self::of(Held::unlimited(job, start)?, inputs, given))
+        Ok(Self::of(Held::without_rows(job, start)?, inputs, given))
     }
 
     fn of(held: Held, inputs: Vec<Input>, given: Vec<(f64, Option<f64>)>) -> Self {
@@ -182,7 +182,7 @@ impl Simulation {
         let inputs = inputs(&job.scenario.scene);
         let (state, behind) = bytes.split_at(bytes.len().saturating_sub(16 * inputs.len()));
         let state = State::from_bytes(&job.model, &key, state)?;
-        let held = Held::unlimited(job, state)?;
+        let held = Held::without_rows(job, state)?;
         let number = |bytes: &[u8]| bytes.try_into().map_or(f64::NAN, f64::from_le_bytes);
         let pairs = behind.chunks(16).map(|pair| {
             let (value, end) = pair.split_at(pair.len().min(8));

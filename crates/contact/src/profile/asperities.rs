@@ -11,7 +11,7 @@
 //! that are higher carry less than rounding.
 
 use super::error::positive;
-use super::kind::{Kind, Peak};
+use super::kind::Kind;
 use super::{Profile, ProfileError, Shape};
 use crate::quadrature::kronrod;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
@@ -214,14 +214,6 @@ impl Kind for Asperities {
     fn depth_slope(&self, a: f64) -> f64 {
         let h = self.depth(a);
         2.0 / (self.count * (self.radius / self.scale).sqrt() * self.integral(0, h))
-    }
-
-    fn gap(&self, _r: f64) -> Option<f64> {
-        None
-    }
-
-    fn peak(&self) -> Option<Peak> {
-        None
     }
 
     fn is_strictly_convex(&self) -> bool {

@@ -3,7 +3,7 @@
 //! m(h) = Σ lᵢ, M(h) = Σ lᵢ (h-hᵢ) and N(h) = Σ lᵢ (h-hᵢ)²/2, over the springs with hᵢ < h. Between two heights they are constant,
 //! linear and quadratic.
 
-use super::kind::{Kind, Peak};
+use super::kind::Kind;
 use super::{Profile, ProfileError, Shape};
 
 /// Springs in order of height, with the integrals m, M and N at each.
@@ -197,14 +197,6 @@ impl Kind for Foundation {
 
     fn depth_slope(&self, _a: f64) -> f64 {
         0.0
-    }
-
-    fn gap(&self, _r: f64) -> Option<f64> {
-        None
-    }
-
-    fn peak(&self) -> Option<Peak> {
-        None
     }
 
     fn is_strictly_convex(&self) -> bool {

@@ -7,7 +7,7 @@
 //! The ratio of tangential to normal stiffness is taken as that of homogeneous half-spaces of the same materials.
 
 use super::error::positive;
-use super::kind::{Kind, Peak};
+use super::kind::Kind;
 use super::power::Power;
 use super::{Profile, ProfileError, Shape};
 use crate::Material;
@@ -101,14 +101,6 @@ impl Kind for Graded {
 
     fn depth_slope(&self, a: f64) -> f64 {
         2.0 * a / self.scale
-    }
-
-    fn gap(&self, _r: f64) -> Option<f64> {
-        None
-    }
-
-    fn peak(&self) -> Option<Peak> {
-        None
     }
 
     fn is_strictly_convex(&self) -> bool {

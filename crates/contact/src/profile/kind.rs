@@ -28,7 +28,9 @@ pub(super) trait Kind {
     fn depth_slope(&self, a: f64) -> f64;
 
     /// Returns the gap f(r), m, r ≥ 0; `None` where there is no gap.
-    fn gap(&self, r: f64) -> Option<f64>;
+    fn gap(&self, _r: f64) -> Option<f64> {
+        None
+    }
 
     /// Returns the positions x > 0, m, ascending, at which g or a derivative of g is not smooth.
     fn borders(&self) -> &[f64] {
@@ -36,7 +38,9 @@ pub(super) trait Kind {
     }
 
     /// Returns where the pressure is largest; `None` without a shape in three dimensions.
-    fn peak(&self) -> Option<Peak>;
+    fn peak(&self) -> Option<Peak> {
+        None
+    }
 
     /// Returns ∫₀ᵃ g'/x dx, if there is a closed form.
     fn middle_slope_integral(&self, _a: f64) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! Rough line: a list of many springs with an index for fast search.
 
 use super::foundation::{Foundation, Sums};
-use super::kind::{Kind, Peak};
+use super::kind::Kind;
 use super::{Profile, ProfileError, SelfAffine, Shape};
 use std::sync::Arc;
 
@@ -128,14 +128,6 @@ impl Kind for Rough {
 
     fn depth_slope(&self, _a: f64) -> f64 {
         0.0
-    }
-
-    fn gap(&self, _r: f64) -> Option<f64> {
-        None
-    }
-
-    fn peak(&self) -> Option<Peak> {
-        None
     }
 
     fn is_strictly_convex(&self) -> bool {

@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 use stickslip_scenario::Scenario;
 
 /// Keys of a scenario that do not affect the motion.
-const BESIDE: [&str; 6] = ["title", "figures", "output", "plots", LIMITS, "run.until_steady"];
+const BESIDE: [&str; 7] = ["title", "figures", "output", "plots", "interface", LIMITS, "run.until_steady"];
 /// Keys that determine the end of a run. A resumed run can change the one of these keys that its scenario contains.
 const END: [&str; 2] = ["run.duration", "run.cycles"];
 /// Key of the limits of a run. A resumed run can change them, because a run stopped by a limit could not continue otherwise.
