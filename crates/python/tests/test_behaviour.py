@@ -139,6 +139,25 @@ def test_a_run_that_stops_has_its_result_so_far():
     assert "40" in str(error) and error.result.results.status != "done"
 
 
+def test_commands_of_a_generator():
+    def after(**commands):
+        sim = ss.examples.commanded().start()
+        assert {"drive.stroke", "drive.frequency", "drive.heading", "drive.steps"} <= set(sim.inputs)
+        sim.advance(1e-6, **commands)
+        state = sim.state()
+        sim.advance(50e-3)
+        ahead = sim["slider.x"]
+        sim.restore(state)
+        sim.advance(50e-3)
+        assert sim["slider.x"] == ahead
+        return ahead
+
+    forward, backward = after(**{"drive.steps": 3}), after(**{"drive.steps": 3, "drive.heading": -1})
+    assert backward < 0.0 < forward
+    with pytest.raises(ValueError, match="1 or -1"):
+        after(**{"drive.heading": 0.5})
+
+
 def test_bad_input_to_a_held_run():
     sim = ss.examples.controlled().start()
     sim.advance(1e-3, drive=1e-7)
