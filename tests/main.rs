@@ -44,5 +44,6 @@ mod sensitivity;
 mod steady;
 mod strangers;
 mod study;
+mod view;
 mod warnings;
 mod words;

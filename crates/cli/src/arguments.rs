@@ -20,6 +20,7 @@ pub(crate) mod sensitivity;
 pub(crate) mod steady;
 pub(crate) mod study;
 mod threads;
+pub(crate) mod view;
 
 use crate::commands::{new, schema};
 use clap::builder::PossibleValuesParser;
@@ -40,6 +41,7 @@ pub(crate) use realtime::RealtimeArguments;
 pub(crate) use run::{ConductArguments, RunArguments};
 pub(crate) use sensitivity::SensitivityArguments;
 pub(crate) use steady::{BranchArguments, SteadyArguments};
+pub(crate) use view::ViewArguments;
 
 /// A simulator of stick-slip drives: piezo inertia drives, fretting rigs
 #[derive(Debug, Parser)]
@@ -136,6 +138,9 @@ pub(crate) enum Command {
     /// Write a scenario for another program: as an FMU
     #[command(subcommand)]
     Export(ExportCommand),
+    /// Write scenarios as one interactive HTML file with the engine inside
+    #[command(long_about = view::ABOUT, after_long_help = view::EXAMPLES)]
+    View(ViewArguments),
     /// Run a drive in real time with inputs and outputs over UDP or shared memory
     #[command(long_about = realtime::ABOUT, after_long_help = realtime::EXAMPLES)]
     Realtime(Box<RealtimeArguments>),

@@ -25,3 +25,4 @@ pub(crate) mod schema;
 pub(crate) mod sensitivity;
 pub(crate) mod steady;
 pub(crate) mod study;
+pub(crate) mod view;

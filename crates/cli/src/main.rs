@@ -10,7 +10,7 @@ use arguments::{Arguments, Command, meant};
 use clap::FromArgMatches;
 use commands::{
     branch, check, compare, completions, contact, curve, explain, export, fit, golden, import, info, map,
-    materials, measure, new, plot, realtime, repro, run, schema, sensitivity, steady, study,
+    materials, measure, new, plot, realtime, repro, run, schema, sensitivity, steady, study, view,
 };
 use std::process::ExitCode;
 
@@ -30,6 +30,7 @@ fn main() -> ExitCode {
         Command::Import(arguments) => import::import(&arguments),
         Command::Measure(arguments) => measure::measure(&arguments),
         Command::Export(command) => export::export(&command),
+        Command::View(arguments) => view::view(&arguments),
         Command::Fit(arguments) => fit::fit(&arguments),
         Command::Sensitivity(arguments) => sensitivity::sensitivity(&arguments),
         Command::Branch(arguments) => branch::branch(&arguments),

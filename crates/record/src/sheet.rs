@@ -1,10 +1,11 @@
 //! Reads the first non-empty sheet of a spreadsheet as tab-separated text.
 
 use crate::error::RecordError;
+#[cfg(not(target_family = "wasm"))]
 use calamine::{Data, Reader, open_workbook_auto_from_rs};
-use std::fmt::Write;
-use std::io::Cursor;
 use std::path::Path;
+#[cfg(not(target_family = "wasm"))]
+use std::{fmt::Write, io::Cursor};
 
 /// File name extensions of spreadsheets.
 const ENDINGS: [&str; 5] = ["xlsx", "xlsm", "xlsb", "xls", "ods"];
@@ -19,6 +20,7 @@ pub(crate) fn is_sheet(name: &str) -> bool {
 ///
 /// # Errors
 /// The file is not a readable spreadsheet or has no cells.
+#[cfg(not(target_family = "wasm"))]
 pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<String, RecordError> {
     let failed = |why: &dyn ToString| RecordError::Sheet { file: name.to_owned(), why: why.to_string() };
     let mut book = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(|error| failed(&error))?;
@@ -42,4 +44,10 @@ pub(crate) fn text(name: &str, bytes: &[u8]) -> Result<String, RecordError> {
         return Ok(text);
     }
     Err(failed(&"the sheet has no cells"))
+}
+
+/// In a browser there are no files.
+#[cfg(target_family = "wasm")]
+pub(crate) fn text(name: &str, _: &[u8]) -> Result<String, RecordError> {
+    Err(RecordError::Sheet { file: name.to_owned(), why: "there are no files here".to_owned() })
 }

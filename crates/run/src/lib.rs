@@ -7,8 +7,8 @@
 //! In reading order:
 //!
 //! * [`Job`] (a prepared scenario) with its `limits`; [`info`] (properties known before the run); [`Columns`] of tables; [`program`];
-//! * a run: [`Watcher`], [`Recorder`], [`Outcome`] (its results), [`Table`] (rows in memory); [`Held`] (a run that the caller advances),
-//!   [`Simulation`] with [`interface`] (for other programs);
+//! * a run: [`Watcher`], [`Recorder`], [`Outcome`] (its results), [`Table`] (rows in memory); [`PartedRun`] (a run with pauses),
+//!   [`Held`] (a run that the caller advances), [`Simulation`] with [`interface`] (for other programs);
 //! * [`Kept`]: results in memory; `table`, `insides` and `sheet` with `digest`: tables on disk, named in [`files`], each with its [`Seal`];
 //!   [`folder`]: atomic publishing of results on a `disk`; [`fingerprint`]: digests of tables;
 //! * [`summary`] with [`Real`] and [`Parts`]; [`warning`];
@@ -29,6 +29,7 @@ pub mod files;
 pub mod fingerprint;
 pub mod folder;
 pub mod frame;
+mod going;
 pub mod guard;
 mod held;
 pub mod info;
@@ -67,7 +68,8 @@ pub mod warning;
 
 pub use columns::Columns;
 pub use excess::Excess;
-pub use held::{Held, HeldError, Quantity};
+pub use going::PartedRun;
+pub use held::{Held, HeldError, Quantity, quantity_of};
 pub use job::{Job, Refusal};
 pub use kept::Kept;
 pub use memory::Table;

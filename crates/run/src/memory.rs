@@ -1,7 +1,10 @@
 //! Table in memory with the rows and events of a run.
 
 use crate::columns::Columns;
+use crate::seal::Seal;
+use crate::table;
 use std::collections::HashMap;
+use std::io;
 use stickslip_drive::{Channel, Event, Model, Record, state_name};
 
 /// Rows and events of a run in memory. The table is a [`Record`] (receiver of a run's data), or part of a [`Recorder`](crate::Recorder).
@@ -79,6 +82,20 @@ impl Table {
     #[must_use]
     pub fn into_columns(self) -> Vec<Vec<f64>> {
         self.columns
+    }
+
+    /// Returns row count and SHA-256 of the rows as the file `trace.csv`; `None` if that cannot be computed.
+    #[must_use]
+    pub fn seal(&self, has_state_numbers: bool) -> Option<Seal> {
+        let columns = Columns::all(&self.channels);
+        let mut sheet = table::Table::new(io::sink(), columns, &[], has_state_numbers);
+        let mut values = Vec::new();
+        for k in 0..self.rows() {
+            values.clear();
+            values.extend(self.columns.iter().map(|column| column[k]));
+            sheet.write(&[], &values);
+        }
+        sheet.finish().ok().map(|written| written.seal)
     }
 
     /// Returns all events in order of time.

@@ -8,6 +8,7 @@ use crate::memory::Table;
 use crate::record::{Draft, Recorded, Recorder};
 use crate::selection::TakenEvents;
 use std::io;
+use stickslip_contact::Memory;
 use stickslip_drive::{RunError, State, Wall};
 use stickslip_measure::Strides;
 use stickslip_measure::books::Books;
@@ -44,6 +45,8 @@ pub struct Outcome {
     pub failure: Option<io::Error>,
     /// Rows and events as written to the tables, if the recorder stored them in memory.
     pub table: Option<Table>,
+    /// Times, s, and slip memories of all contacts, if the recorder stored them.
+    pub snapshots: Vec<(f64, Vec<Memory>)>,
 }
 
 impl Outcome {
@@ -116,6 +119,7 @@ impl Ended {
             excess,
             failure,
             table,
+            snapshots,
         } = recorded;
         let outcome = Outcome {
             error,
@@ -132,6 +136,7 @@ impl Ended {
             excess,
             failure,
             table,
+            snapshots,
         };
         (outcome, drafts)
     }

@@ -42,6 +42,8 @@ pub struct Recorder<'a> {
     marks: Marks,
     /// Time of a snapshot that has been requested but not yet received, s.
     asked: Option<f64>,
+    /// Times of snapshots that are stored in memory, s.
+    snapshots: std::vec::IntoIter<f64>,
     /// Buffer for the cycles that end at a sample, with the indices of their contacts.
     ended: Vec<(usize, CycleFigures)>,
 }
@@ -71,6 +73,8 @@ pub(crate) struct Recorded {
     pub failure: Option<io::Error>,
     /// Selected and rounded rows and events, if they were stored in memory.
     pub table: Option<Table>,
+    /// Times, s, and slip memories of all contacts, if they were requested.
+    pub snapshots: Vec<(f64, Vec<Memory>)>,
 }
 
 impl<'a> Recorder<'a> {
@@ -95,6 +99,7 @@ impl<'a> Recorder<'a> {
             excess: None,
             failure: None,
             table: None,
+            snapshots: Vec::new(),
         };
         let marks = Marks::of(job);
         Self {
@@ -110,6 +115,7 @@ impl<'a> Recorder<'a> {
             keeps_cycles: true,
             marks,
             asked: None,
+            snapshots: Vec::new().into_iter(),
             ended: Vec::new(),
         }
     }
@@ -128,6 +134,11 @@ impl<'a> Recorder<'a> {
     /// Returns the recorder with all rows and events of the tables stored in memory.
     pub fn with_table(self) -> Self {
         Self { table: Some(Table::of(&self.job.columns)), ..self }
+    }
+
+    /// Returns the recorder with the slip memories of all contacts at these ascending times (s) stored in memory. Without tables only.
+    pub fn with_snapshots(self, times: Vec<f64>) -> Self {
+        Self { snapshots: times.into_iter(), ..self }
     }
 
     /// Returns the recorder with an additional fingerprint of the tables, even if the tables are not written.
@@ -276,6 +287,11 @@ impl<'a> Recorder<'a> {
         kept <= limit
     }
 
+    /// Returns whether the recorder itself does not end the run.
+    pub(crate) fn may_continue(&self) -> bool {
+        self.recorded.excess.is_none() && !self.has_failed()
+    }
+
     /// Returns whether a write has failed.
     fn has_failed(&self) -> bool {
         self.recorded.failure.is_some() || self.tables.as_ref().is_some_and(Tables::has_failed)
@@ -306,12 +322,16 @@ impl Record for Recorder<'_> {
     }
 
     fn next_look(&mut self) -> Option<f64> {
-        self.asked.take().or_else(|| self.tables.as_mut()?.insides.next_look())
+        self.asked.take().or_else(|| match &mut self.tables {
+            Some(tables) => tables.insides.next_look(),
+            None => self.snapshots.next(),
+        })
     }
 
-    fn look(&mut self, _: f64, memories: &[Memory]) {
-        if let Some(tables) = &mut self.tables {
-            tables.insides.look(memories);
+    fn look(&mut self, t: f64, memories: &[Memory]) {
+        match &mut self.tables {
+            Some(tables) => tables.insides.look(memories),
+            None => self.recorded.snapshots.push((t, memories.to_vec())),
         }
     }
 

@@ -1,23 +1,23 @@
 //! Writer of the CSV tables `trace.csv` and `events.csv`.
 
 use crate::columns::Columns;
-use crate::sheet::{Sheet, Written};
+use crate::sheet::{Sheet, Target, Written};
 use crate::states::state_digit;
 use std::io;
 use stickslip_drive::state_name;
 use tempfile::NamedTempFile;
 
 /// A table that is being written.
-pub(crate) struct Table {
-    sheet: Sheet,
+pub(crate) struct Table<F = NamedTempFile> {
+    sheet: Sheet<F>,
     columns: Columns,
     /// Whether contact states are written as numbers instead of words.
     states: bool,
 }
 
-impl Table {
+impl<F: Target> Table<F> {
     /// Creates a table with the text columns `extra` after the time. `states` selects numbers instead of words for contact states.
-    pub(crate) fn new(file: NamedTempFile, columns: Columns, extra: &[&str], states: bool) -> Self {
+    pub(crate) fn new(file: F, columns: Columns, extra: &[&str], states: bool) -> Self {
         let mut names = columns.names();
         let time = names.next();
         let sheet = Sheet::new(file, time.into_iter().chain(extra.iter().copied()).chain(names));
@@ -48,7 +48,7 @@ impl Table {
     }
 
     /// Returns the written file.
-    pub(crate) fn finish(self) -> io::Result<Written> {
+    pub(crate) fn finish(self) -> io::Result<Written<F>> {
         self.sheet.finish()
     }
 }

@@ -92,8 +92,14 @@ impl Guide {
         named.into_iter().chain(kinds)
     }
 
+    /// Returns the number under one of the keys, also from the referenced type or the first variant that has one.
+    pub(crate) fn bound(&self, schema: &Value, keys: &[&str]) -> Option<f64> {
+        let own = keys.iter().find_map(|key| schema.get(key)?.as_f64());
+        own.or_else(|| self.parts(schema).find_map(|part| self.bound(part, keys)))
+    }
+
     /// Returns the first sentence of the description, in lower case for use inside a sentence.
-    fn description(&self, schema: &Value) -> Option<String> {
+    pub(crate) fn description(&self, schema: &Value) -> Option<String> {
         let text = match schema.get("description") {
             Some(text) => text.as_str()?,
             None => return self.parts(schema).next().and_then(|part| self.description(part)),

@@ -7,11 +7,22 @@ use crate::scenario::Scenario;
 use crate::suggest;
 use crate::units::Kind;
 use serde_json::Value;
+use std::collections::HashSet;
 
 /// Maximum depth of the search for the dimension in the schema.
 const DEEPEST: usize = 8;
 /// Sections that concern execution of a run and have no influence on the motion.
 const OF_A_RUN: [&str; 3] = ["output", "plots", "run"];
+
+/// Keys of the schema for the bounds of a number.
+const BELOW: [&str; 2] = ["minimum", "exclusiveMinimum"];
+const ABOVE: [&str; 2] = ["maximum", "exclusiveMaximum"];
+/// Longest list whose numbers are parameters. Longer lists are data, such as the points of a waveform.
+const LIST: usize = 4;
+/// Sections of the scenario whose entries have an effect only if another part refers to them by name.
+const LISTS: [&str; 2] = ["materials", "waveforms"];
+/// Keys that only limit the duration of a waveform.
+const LENGTHS: [&str; 1] = ["cycles"];
 
 /// Number of a scenario that may be varied.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +35,10 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Whether the number is an integer, such as a count.
     pub is_whole: bool,
+    /// Smallest and largest value that the schema allows, bounds themselves included or not; infinite without a bound.
+    pub range: [f64; 2],
+    /// First sentence of the description.
+    pub text: String,
 }
 
 impl Scenario {
@@ -44,6 +59,26 @@ impl Scenario {
             return Err(self.locate(path, message, None));
         }
         Ok(found)
+    }
+
+    /// Returns all numbers of the scenario on which the motion depends continuously, except those of unused materials and waveforms.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<Parameter> {
+        let mut tree: Value = serde_json::from_str(&self.resolved()).unwrap_or_default();
+        let mut named = HashSet::new();
+        strings(&tree, &mut named);
+        for list in LISTS {
+            if let Some(entries) = tree.get_mut(list).and_then(Value::as_object_mut) {
+                entries.retain(|name, _| named.contains(name));
+            }
+        }
+        let mut paths = Vec::new();
+        leaves(String::new(), &tree, &mut paths);
+        paths
+            .iter()
+            .filter_map(|path| self.parameter(path).ok())
+            .filter(|found| found.value.is_some())
+            .collect()
     }
 
     /// Returns the periods or frequencies of all named waveforms.
@@ -97,7 +132,39 @@ impl Scenario {
             Takes::Numbers | Takes::Nothing => kind,
         };
         let unit = kind.map_or("", Kind::si);
-        Ok(Parameter { path: path.to_owned(), value, unit, is_whole: is_whole(schema) })
+        let guide = Guide::get();
+        let range = [guide.bound(schema, &BELOW), guide.bound(schema, &ABOVE)];
+        let range = [range[0].unwrap_or(f64::NEG_INFINITY), range[1].unwrap_or(f64::INFINITY)];
+        let text = guide.description(schema).unwrap_or_default();
+        Ok(Parameter { path: path.to_owned(), value, unit, is_whole: is_whole(schema), range, text })
+    }
+}
+
+/// Collects all strings in the values of a JSON tree.
+fn strings(here: &Value, found: &mut HashSet<String>) {
+    match here {
+        Value::Object(entries) => entries.values().for_each(|inner| strings(inner, found)),
+        Value::Array(entries) => entries.iter().for_each(|inner| strings(inner, found)),
+        Value::String(text) => found.extend([text.clone()]),
+        _ => {}
+    }
+}
+
+/// Collects the key paths of all numbers.
+fn leaves(path: String, here: &Value, found: &mut Vec<String>) {
+    match here {
+        Value::Object(entries) => {
+            for (key, inner) in entries.iter().filter(|(key, _)| !LENGTHS.contains(&key.as_str())) {
+                let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+                leaves(path, inner, found);
+            }
+        }
+        // Lists of objects contain parts of the scenario, such as loads.
+        Value::Array(entries) if entries.len() <= LIST || entries.iter().all(Value::is_object) => {
+            entries.iter().enumerate().for_each(|(i, inner)| leaves(format!("{path}[{i}]"), inner, found));
+        }
+        Value::Number(_) => found.push(path),
+        _ => {}
     }
 }
 

@@ -24,6 +24,8 @@ mod interruptible;
 mod journal;
 pub mod map;
 mod number;
+// Its library asks a browser for the time.
+#[cfg(not(target_family = "wasm"))]
 pub mod optimum;
 mod published;
 pub mod report;
@@ -53,6 +55,7 @@ pub fn definitions() -> Vec<Definition> {
     all.extend(read::<sweep::Forecast>("study plan --json"));
     all.extend(read::<sweep::Statistics>("study run --json"));
     all.extend(read::<sweep::Indices>("study indices --json"));
+    #[cfg(not(target_family = "wasm"))]
     all.extend(read::<optimum::Report>(stickslip_run::files::OPTIMUM));
     let mut met = HashSet::new();
     all.retain(|one| met.insert((one.file, one.name.clone())));

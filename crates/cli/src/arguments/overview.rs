@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 /// Groups of commands, those of every day first.
 const GROUPS: [(&str, &[&str]); 5] = [
-    ("Every day", &["new", "check", "info", "run", "plot", "compare", "explain"]),
+    ("Every day", &["new", "check", "info", "run", "plot", "view", "compare", "explain"]),
     ("Design a drive", &["curve", "steady", "branch", "sensitivity", "study", "map"]),
     ("Contacts and measured data", &["contact", "import", "measure", "fit"]),
     ("Other programs", &["export", "realtime"]),
