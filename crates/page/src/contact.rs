@@ -24,8 +24,8 @@ impl Frame {
         Self { reach, springs: Springs::new(law.profile(), SPRINGS, 2.0 * reach).ok() }
     }
 
-    /// Returns the inside of a contact: 13 numbers (time, d, u, F_N, F_x, a, c, state, elastic energy of the tangential deformation,
-    /// friction work, and the numbers of springs, radii and breakpoints), then for each spring x, length, stretch, state, normal and
+    /// Returns the inside of a contact: 15 numbers (time, d, u, F_N, F_x, a, c, state, elastic energy of the tangential deformation,
+    /// friction work, μ, κ, and the numbers of springs, radii and breakpoints), then for each spring x, length, stretch, state, normal and
     /// tangential force, for each radius r, p, τ, u and state, and for each breakpoint of the memory curve h and p.
     pub(crate) fn inside(&self, law: &Interface, memory: &Memory, [t, work]: [f64; 2]) -> Vec<f64> {
         let apex = memory.apex();
@@ -53,7 +53,7 @@ impl Frame {
         };
         let forces = [law.normal_force(apex.d), now.force];
         let mut numbers = vec![t, apex.d, apex.u, forces[0], forces[1], radius, now.stick_radius];
-        numbers.extend([state, now.elastic, work]);
+        numbers.extend([state, now.elastic, work, law.friction(), law.stick_slope()]);
         numbers.extend([springs.len(), fields.len(), knots.len()].map(|count| count as f64));
         for LoadedSpring { spring, normal_force, tangential_force, .. } in springs {
             let state = state_of(spring.state);

@@ -3,6 +3,8 @@
 //! Texts pass through one buffer, numbers as pointers to `f64`. A function that returns a number of bytes has left a text in the buffer.
 //! A pointer is valid until the next call.
 
+#![allow(unreachable_pub, reason = "exports to WebAssembly")]
+
 use crate::Page;
 use std::cell::RefCell;
 
@@ -127,7 +129,7 @@ pub extern "C" fn about() -> usize {
 pub extern "C" fn inside(contact: usize, index: i32) -> *const f64 {
     // Without an inside, the counts are NaN.
     let inside = with(|page, _| page.inside(contact, index));
-    give(if inside.is_empty() { vec![f64::NAN; 13] } else { inside })
+    give(if inside.is_empty() { vec![f64::NAN; 15] } else { inside })
 }
 
 /// Searches the periodic orbit. Returns 0 with the report as JSON, or 1 with the error.
@@ -155,7 +157,7 @@ pub extern "C" fn live() -> u32 {
     tell(with(|page, _| page.live().map(Some)))
 }
 
-/// Advances the motion by hand with a value of an input. Returns the number of channels and their values, or null after an error.
+/// Advances the motion by hand with a value of an input. Returns the number of columns and their values, or null after an error.
 #[unsafe(no_mangle)]
 pub extern "C" fn step(until: f64, input: usize, value: f64) -> *const f64 {
     match with(|page, _| page.step(until, input, value)) {

@@ -150,15 +150,13 @@ impl Page {
             let of = quantity_of(channel);
             json!({ "name": of.name, "unit": of.unit, "text": of.text, "state": is_state })
         });
-        let contacts = job.model.contacts().map(|(name, law)| {
-            json!({ "name": name, "friction": law.friction(), "kappa": law.stick_slope(), "shape": law.profile().has_shape() })
-        });
+        let contacts = job
+            .model
+            .contacts()
+            .map(|(name, law)| json!({ "name": name, "shape": law.profile().has_shape() }));
         let scenario: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
         json!({
             "title": job.title(), "sha256": job.hash, "program": job.program, "duration": job.scenario.plan.duration,
-            "snapshots": self.ran.as_ref().map_or_else(Vec::new, |ran| {
-                ran.outcome.snapshots.iter().map(|(t, _)| *t).collect()
-            }),
             "scenario": scenario, "numbers": numbers.collect::<Vec<_>>(), "columns": columns.collect::<Vec<_>>(),
             "contacts": contacts.collect::<Vec<_>>(),
         })
@@ -237,7 +235,7 @@ impl Page {
         Ok(names)
     }
 
-    /// Advances the motion by hand with a value of an input, and returns the values of all channels.
+    /// Advances the motion by hand with a value of an input, and returns the values of the columns.
     ///
     /// # Errors
     /// There is no such motion, the value is refused, or the run stops.
@@ -245,7 +243,8 @@ impl Page {
         let live = self.live.as_mut().ok_or("no motion by hand has begun")?;
         let values: &[(usize, f64)] = if value.is_nan() { &[] } else { &[(input, value)] };
         live.advance(until, values, &mut ()).map_err(|error| error.to_string())?;
-        Ok(live.held().row())
+        let held = live.held();
+        Ok(held.job().columns.of(&held.row()).map(|(value, _)| value).collect())
     }
 }
 

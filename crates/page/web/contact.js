@@ -195,7 +195,7 @@ export function contactPage(place, fail) {
   function redraw() {
     const { inside } = parts ?? {};
     if (!inside || place.hidden) return;
-    drawSprings(parts.row, inside, { friction: now.values.μ });
+    drawSprings(parts.row, inside);
     drawPad();
     drawProfile(inside);
     drawSurface(inside);

@@ -57,9 +57,9 @@ export class Engine {
   inside(contact, index) {
     const at = this.e.inside(contact, index);
     const { buffer } = this.e.memory;
-    const [springs, radii, knots] = new Float64Array(buffer, at, 13).slice(10);
+    const [springs, radii, knots] = new Float64Array(buffer, at, 15).slice(12);
     if (!(springs >= 0)) return null;
-    return new Float64Array(buffer, at, 13 + 6 * springs + 5 * radii + 2 * knots).slice();
+    return new Float64Array(buffer, at, 15 + 6 * springs + 5 * radii + 2 * knots).slice();
   }
 
   step(until, input, value) {

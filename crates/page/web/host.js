@@ -13,12 +13,13 @@ export function unpacked(id) {
     packed = new Uint8Array(binary.length);
     for (let k = 0; k < binary.length; k += 1) packed[k] = binary.charCodeAt(k);
   }
-  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip')));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(stream, { headers: { 'content-type': 'application/wasm' } });
 }
 
 /** Compiles the engine that the page contains. */
 export function compile() {
-  compiled ??= unpacked('engine').arrayBuffer().then((bytes) => WebAssembly.compile(bytes));
+  compiled ??= WebAssembly.compileStreaming(unpacked('engine'));
   return compiled;
 }
 

@@ -6,8 +6,8 @@ import { words } from './units.js';
 /** The numbers by name. */
 export function read(numbers) {
   if (!numbers) return null;
-  const [t, d, u, normal, force, a, c, state, elastic, work, springs, radii, knots] = numbers;
-  let at = 13;
+  const [t, d, u, normal, force, a, c, state, elastic, work, friction, kappa, springs, radii, knots] = numbers;
+  let at = 15;
   const take = (count, width, names) => {
     const found = Object.fromEntries(names.map((name) => [name, new Float64Array(count)]));
     for (let k = 0; k < count; k += 1) names.forEach((name, n) => { found[name][k] = numbers[at + width * k + n]; });
@@ -15,7 +15,7 @@ export function read(numbers) {
     return found;
   };
   return {
-    t, d, u, normal, force, a, c, state, elastic, work,
+    t, d, u, normal, force, a, c, state, elastic, work, friction, kappa,
     springs: take(springs, 6, ['x', 'length', 'stretch', 'state', 'normal', 'force']),
     fields: take(radii, 5, ['r', 'p', 'tau', 'u', 'state']),
     knots: take(knots, 2, ['h', 'p']),
@@ -28,7 +28,7 @@ const greatest = (array, least = 0) => array.reduce((most, value) => (Number.isF
  * The row of springs, pressed and sheared (Figure 4.2 of the handbook): the foot of each spring stays where it is stretched from, its
  * head is on the body above. Below it pressure and shear stress.
  */
-export function drawSprings(canvas, inside, { friction }) {
+export function drawSprings(canvas, inside) {
   paint(canvas, (g, width, height) => {
     const palette = colours();
     g.fillStyle = palette.text;
@@ -37,7 +37,7 @@ export function drawSprings(canvas, inside, { friction }) {
       g.fillText(!inside ? '' : inside.a > 0 ? 'This contact has no row of springs to show.' : 'open contact', width / 2, height / 2);
       return;
     }
-    const { springs, fields, a, c } = inside;
+    const { springs, fields, a, c, friction } = inside;
     const reach = Math.max(greatest(springs.x), a) || 1;
     const px = (x) => width / 2 + (x / reach) * (width / 2 - 16);
     const share = fields.r.length ? 0.5 : 0.8;
@@ -119,7 +119,7 @@ export function drawSprings(canvas, inside, { friction }) {
 }
 
 /** The memory curve: rest positions p - u of the springs over the indentation h at which they touch. */
-export function drawMemory(canvas, inside, { kappa }) {
+export function drawMemory(canvas, inside) {
   paint(canvas, (g, width, height) => {
     const palette = colours();
     g.fillStyle = palette.text;
@@ -128,7 +128,7 @@ export function drawMemory(canvas, inside, { kappa }) {
       g.fillText(inside && inside.d > 0 ? 'A row of springs has no memory curve.' : 'open contact', width / 2, height / 2);
       return;
     }
-    const { d, u, knots } = inside;
+    const { d, u, knots, kappa } = inside;
     const most = kappa * d || greatest(knots.p.map((p) => p - u)) || 1e-12;
     const px = (h) => 46 + (h / d) * (width - 60);
     const py = (p) => height / 2 - (p / most) * (height / 2 - 26);

@@ -9,7 +9,7 @@ import { Plot } from './plots.js';
 import { results } from './results.js';
 import { Scene } from './scene.js';
 import { set, sliders } from './sliders.js';
-import { dark, still } from './theme.js';
+import { dark } from './theme.js';
 import { Timeline } from './timeline.js';
 import { plain, unitOf, words } from './units.js';
 
@@ -72,45 +72,42 @@ $('cancel').onclick = () => {
 
 let since = 0;
 let flying = 0;
-let next = null;
+let next = false;
 
 /** Runs the present scenario; the newest request wins. */
-function run(whole = false) {
-  const want = { whole: whole || next?.whole || false };
+function run() {
   if (flying && performance.now() - since < PATIENCE) {
-    next = want;
+    next = true;
     return;
   }
-  next = null;
+  next = false;
   since = performance.now();
   const mine = ++flying;
-  launch(want).finally(() => {
+  launch().finally(() => {
     if (mine === flying) flying = 0;
-    if (next) run(next.whole);
+    if (next) run();
   });
-  setTimeout(() => next && run(next.whole), PATIENCE + 1);
+  setTimeout(() => next && run(), PATIENCE + 1);
 }
 
-async function launch({ whole }) {
+/** The text of a scenario with fewer rows if it asks for very many, and a remark about that. */
+function thinned(tree) {
+  const { duration, cycles } = tree.run ?? {};
+  const [span, every] = [duration ?? cycles * slowest(tree), tree.output?.every];
+  if (!(typeof span === 'number' && typeof every === 'number' && span / every > MOST_ROWS)) return [JSON.stringify(tree), ''];
+  const fewer = span / 20_000;
+  const remark = `Rows every ${words(fewer, 's')} instead of ${words(every, 's')}: the scenario asks for more than ${MOST_ROWS.toLocaleString('en')} rows. The motion is the same.`;
+  return [JSON.stringify({ ...tree, output: { ...tree.output, every: fewer } }), remark];
+}
+
+async function launch(fresh = false) {
   stopLive();
-  const tree = structuredClone(page.tree);
-  const [span, every] = [tree.run?.duration, tree.output?.every];
-  let remark = '';
-  if (typeof span === 'number' && typeof every === 'number' && span / every > MOST_ROWS) {
-    tree.output.every = span / 20_000;
-    remark = `Rows every ${words(tree.output.every, 's')} instead of ${words(every, 's')}: the scenario asks for more than ${MOST_ROWS.toLocaleString('en')} rows. The motion is the same.`;
-  }
-  const text = JSON.stringify(tree);
-  const answer = await watch(host.call('run', { text, snapshots: SNAPSHOTS, whole }));
+  const [text, remark] = thinned(page.tree);
+  const answer = await watch(host.call('run', { text, snapshots: SNAPSHOTS }));
   if (answer.stale) return;
-  if (answer.error) {
-    fail(answer.error);
-    return;
-  }
-  fail('');
+  fail(answer.error ?? '');
+  if (answer.error) return;
   note(remark);
-  const fresh = !!answer.about;
-  if (fresh) page.about = { ...answer.about, words: await meanings };
   page.columns = answer.columns;
   page.rows = answer.columns.time_s.length;
   page.duration = page.columns.time_s[page.rows - 1] || 1;
@@ -123,11 +120,8 @@ async function launch({ whole }) {
 /** A new scenario: lists, sliders and names. */
 function begin() {
   const { about } = page;
-  page.tree = about.scenario;
-  page.original ??= structuredClone(about.scenario);
   document.title = `${about.title} · stickslip`;
   $('title').textContent = about.title;
-  $('sha').textContent = about.sha256;
   const shown = Math.min(page.contact, about.contacts.length - 1);
   page.contact = Math.max(0, shown);
   $('contact').replaceChildren(...about.contacts.map((it, k) => new Option(it.name, k, k === page.contact, k === page.contact)));
@@ -170,6 +164,7 @@ function show({ events, summary }) {
   if (rest.steps) delete rest.steps.why;
   results($('results'), rest, page.about);
   $('orbit').replaceChildren();
+  $('sha').textContent = summary.scenario_sha256;
   $('hash').textContent = '';
   seek(Math.min(page.t, page.duration));
   document.documentElement.dataset.drawn ??= Math.round(performance.now());
@@ -225,10 +220,9 @@ async function look() {
 }
 
 function drawInside(inside) {
-  const law = page.about.contacts[page.contact];
   page.inside = inside;
-  drawSprings($('springs'), inside, law);
-  drawMemory($('memory'), inside, law);
+  drawSprings($('springs'), inside);
+  drawMemory($('memory'), inside);
 }
 
 function seek(t) {
@@ -256,9 +250,10 @@ const timeline = new Timeline($('timeline'), $('event'), (t) => seek(t), ({ t, s
 
 // Playing.
 
-const rate = () => 10 ** +$('speed').value;
-const tellRate = () => { $('rate').textContent = `${+rate().toPrecision(2)} s per s`; };
-$('speed').oninput = tellRate;
+/** Simulated seconds per second. */
+const SPEEDS = [1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1];
+$('speed').replaceChildren(...SPEEDS.map((speed) => new Option(speed === 1 ? 'real time' : `1 : ${1 / speed}`, speed, speed === 0.01, speed === 0.01)));
+const rate = () => +$('speed').value;
 
 function play(until = page.duration) {
   if (!page.columns) return;
@@ -287,12 +282,15 @@ function pause() {
   $('play').setAttribute('aria-label', 'Play');
 }
 
-/** Period of the drive: of the slowest waveform with one, or a tenth of the run. */
-function period() {
-  const found = Object.values(page.tree.waveforms ?? {}).flatMap((form) => Object.values(form)).map((form) => form?.period ?? (form?.frequency ? 1 / form.frequency : null));
-  const known = found.filter((value) => typeof value === 'number' && value < page.duration);
-  return known.length ? Math.max(...known) : page.duration / 10;
+/** The longest period of the waveforms that is below a time, s; NaN without one. */
+function slowest(tree, below = Infinity) {
+  const forms = Object.values(tree.waveforms ?? {}).flatMap((form) => Object.values(form));
+  const known = forms.map((form) => form?.period ?? 1 / form?.frequency).filter((value) => typeof value === 'number' && value < below);
+  return known.length ? Math.max(...known) : NaN;
 }
+
+/** Period of the drive, or a tenth of the run. */
+const period = () => slowest(page.tree, page.duration) || page.duration / 10;
 
 $('play').onclick = () => (page.playing ? pause() : play());
 $('period').onclick = () => {
@@ -300,8 +298,7 @@ $('period').onclick = () => {
   const from = page.t + span > page.duration * (1 + 1e-9) ? Math.max(0, page.duration - span) : page.t;
   seek(from);
   // About four seconds for a period.
-  $('speed').value = Math.max(-4, Math.min(0, Math.log10(span / 4)));
-  tellRate();
+  $('speed').value = SPEEDS.findLast((speed) => speed <= span / 4) ?? SPEEDS[0];
   play(Math.min(page.duration, from + span));
 };
 
@@ -315,7 +312,7 @@ async function startLive(body, at) {
   const force = 2 * scene.force;
   tree.waveforms = { ...tree.waveforms, hand: { input: { initial: 0, range: [-force, force], interpolation: 'linear' } } };
   tree.loads = [...(tree.loads ?? []), { on: body, x: { follows: 'hand' } }];
-  Object.assign(live, { on: true, body, from: at, to: at, force, t: 0, rows: [], ready: false });
+  Object.assign(live, { on: true, body, from: at, to: at, force, t: 0, rows: [], names: null });
   note(`You push ${body} by hand, with at most ${words(force, 'N', 3)}. Let go and press Escape to come back to the run.`);
   const loaded = await host.call('load', { text: JSON.stringify(tree) });
   const begun = loaded.error ? loaded : await host.call('live');
@@ -325,7 +322,6 @@ async function startLive(body, at) {
     return;
   }
   live.input = begun.text.split('\n').indexOf('hand');
-  live.ready = true;
   let last = performance.now();
   const tick = async (now) => {
     if (!live.on) return;
@@ -441,7 +437,8 @@ $('axes').onchange = () => {
 };
 $('reset').onclick = () => {
   page.tree = structuredClone(page.original);
-  run(true);
+  sliders($('sliders'), page.about, change);
+  run();
 };
 $('steady').onclick = async () => {
   const answer = await watch(host.call('steady'));
@@ -475,31 +472,26 @@ for (const kind of ['png', 'svg']) $(kind).onclick = () => picture(kind, page.ab
 
 /** Takes the text of a scenario; an invalid one leaves the page as it is. */
 async function take(text) {
-  let tree;
-  try {
-    tree = JSON.parse(text);
-  } catch {
-    // The engine reads comments, and tells the place of an error.
-    const { error } = await host.call('load', { text });
-    if (error) {
-      fail(error);
-      return;
+  let answer = await watch(host.call('load', { text }));
+  if (answer.error && /^\s*\{/.test(text)) {
+    // It may only have too many rows. Errors are those of the text as it is.
+    try {
+      const [fewer, remark] = thinned(JSON.parse(text));
+      const other = remark ? await watch(host.call('load', { text: fewer })) : answer;
+      if (other.about) answer = other;
+    } catch {
+      // The engine has said what is wrong.
     }
-    tree = null;
   }
-  if (tree === null || typeof tree !== 'object' || Array.isArray(tree)) {
-    const { error } = await host.call('load', { text });
-    fail(error ?? 'The page reads scenarios without comments: run `stickslip view` with the file.');
+  if (answer.stale) return;
+  if (answer.error) {
+    fail(answer.error);
     return;
   }
-  const before = [page.tree, page.original];
-  page.tree = tree;
-  page.original = null;
-  await launch({ whole: true });
-  if (page.original === null) {
-    [page.tree, page.original] = before;
-    page.tree ??= tree;
-  }
+  page.about = { ...answer.about, words: await meanings };
+  page.original = page.about.scenario;
+  page.tree = structuredClone(page.original);
+  await launch(true);
 }
 
 $('open').onclick = () => $('file').click();
@@ -548,7 +540,6 @@ addEventListener('resize', () => {
 addEventListener('hashchange', () => start());
 
 async function start() {
-  tellRate();
   if (location.hash.startsWith('#s=')) {
     try {
       await take(await unpack(location.hash));
@@ -568,5 +559,5 @@ async function start() {
   }
 }
 
-window.stickslip = { page, seek, host, still };
+window.stickslip = { page, seek, host };
 start();

@@ -14,7 +14,6 @@ export function colours() {
 }
 
 export const dark = matchMedia('(prefers-color-scheme: dark)');
-export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
 /** A canvas at the resolution of the screen: calls `draw(context, width, height)`. */
 export function paint(canvas, draw) {

@@ -20,13 +20,15 @@ const breathe = () => new Promise((resume) => {
 });
 
 const calls = {
+  /** Loads a scenario and tells what there is to say about it. */
   load({ text }) {
     run += 1;
-    return { error: engine.load(text) };
+    const error = engine.load(text);
+    return error ? { error } : { about: JSON.parse(engine.text('about')) };
   },
 
-  /** Loads a scenario and runs it. `whole` adds what is said about the scenario. */
-  async run({ text, snapshots, whole }) {
+  /** Loads a scenario and runs it. */
+  async run({ text, snapshots }) {
     const mine = ++run;
     const begun = performance.now();
     const error = engine.load(text) ?? engine.begin(snapshots);
@@ -51,7 +53,6 @@ const calls = {
       columns,
       events: engine.text('events'),
       summary: JSON.parse(engine.text('summary') || '{}'),
-      about: whole ? JSON.parse(engine.text('about')) : null,
       time: performance.now() - begun,
     };
   },
@@ -67,8 +68,8 @@ const calls = {
     for (let k = 0; k < count; k += 1) {
       const inside = engine.inside(contact, k);
       if (!inside) break;
-      const springs = inside[10];
-      all.push(Uint8Array.from({ length: springs }, (_, i) => inside[13 + 6 * i + 3]));
+      const springs = inside[12];
+      all.push(Uint8Array.from({ length: springs }, (_, i) => inside[15 + 6 * i + 3]));
       if (k % 16 === 15) {
         await breathe();
         if (mine !== run) return { stale: true };

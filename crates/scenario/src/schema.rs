@@ -9,6 +9,7 @@ pub(crate) use rule::{
     something_to_do, stroke_or_voltage,
 };
 
+#[cfg(not(target_family = "wasm"))]
 use crate::form::Form;
 use crate::resolved;
 use crate::study::StudyForm;

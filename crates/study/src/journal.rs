@@ -38,6 +38,8 @@ pub(crate) enum Held {
     Foreign,
 }
 
+// Optima, which are not in a browser, use more of it.
+#[cfg_attr(target_family = "wasm", allow(dead_code))]
 impl Journal {
     /// Opens the journal of a study. `of` contains everything on which the results depend, such as the scenario.
     ///
