@@ -4,7 +4,7 @@ use crate::contact::{Frame, Hand};
 use serde_json::{Value, json};
 use std::sync::Arc;
 use stickslip_contact::Memory;
-use stickslip_drive::Event;
+use stickslip_drive::{Event, Record};
 use stickslip_run::theory::{Sheet, Subject};
 use stickslip_run::{Job, Outcome, PartedRun, Simulation, Summary, quantity_of};
 use stickslip_scenario::Scenario;
@@ -21,8 +21,35 @@ pub struct Page {
     job: Option<Arc<Job>>,
     going: Option<PartedRun>,
     ran: Option<Ran>,
-    live: Option<Simulation>,
+    live: Option<(Simulation, Look)>,
     hand: Option<Hand>,
+}
+
+/// The slip memories at the end of an advance.
+#[derive(Default)]
+struct Look {
+    until: f64,
+    at: f64,
+    memories: Vec<Memory>,
+}
+
+impl Record for Look {
+    fn row(&mut self, _: &[f64]) {}
+
+    fn event(&mut self, _: &Event, _: &[f64]) {}
+
+    fn wants_events(&self) -> bool {
+        false
+    }
+
+    fn next_look(&mut self) -> Option<f64> {
+        // The time after this advance is not known yet: at its beginning there is another look.
+        Some(if self.at < self.until { self.until } else { self.until * (1.0 + 1e-9) })
+    }
+
+    fn look(&mut self, t: f64, memories: &[Memory]) {
+        (self.at, self.memories) = (t, memories.to_vec());
+    }
 }
 
 /// A finished run.
@@ -179,9 +206,7 @@ impl Page {
             };
             match usize::try_from(index) {
                 Ok(index) => ran.outcome.snapshots.get(index).and_then(|(t, memories)| inside(*t, memories)),
-                Err(_) => {
-                    self.live.as_ref()?.held().with_state(|state| inside(state.time(), state.memories()))
-                }
+                Err(_) => self.live.as_ref().and_then(|(_, look)| inside(look.at, &look.memories)),
             }
         };
         shown().unwrap_or_default()
@@ -231,7 +256,7 @@ impl Page {
         let live = Simulation::new(Arc::clone(self.job()?)).map_err(|error| error.to_string())?;
         let names: Vec<&str> = live.inputs().iter().map(|input| input.name.as_str()).collect();
         let names = names.join("\n");
-        self.live = Some(live);
+        self.live = Some((live, Look::default()));
         Ok(names)
     }
 
@@ -240,9 +265,10 @@ impl Page {
     /// # Errors
     /// There is no such motion, the value is refused, or the run stops.
     pub fn step(&mut self, until: f64, input: usize, value: f64) -> Result<Vec<f64>, String> {
-        let live = self.live.as_mut().ok_or("no motion by hand has begun")?;
+        let (live, look) = self.live.as_mut().ok_or("no motion by hand has begun")?;
         let values: &[(usize, f64)] = if value.is_nan() { &[] } else { &[(input, value)] };
-        live.advance(until, values, &mut ()).map_err(|error| error.to_string())?;
+        look.until = until;
+        live.advance(until, values, look).map_err(|error| error.to_string())?;
         let held = live.held();
         Ok(held.job().columns.of(&held.row()).map(|(value, _)| value).collect())
     }

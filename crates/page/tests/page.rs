@@ -73,6 +73,33 @@ fn a_contact_in_the_hand_follows_cattaneo_and_mindlin() {
     assert!(page.press(f64::NAN, 0.0).is_err());
 }
 
+/// The inside that is shown while a body is pushed is that of the row: force, indentation and displacement agree.
+#[test]
+fn a_motion_by_hand_shows_the_inside_of_its_contact() {
+    let mut page = Page::default();
+    let names = page.load(&scenario("controlled")).unwrap();
+    page.begin(2).unwrap();
+    while page.go(u64::MAX) < 1.0 {}
+    let input = page.live().unwrap().lines().position(|name| name == "drive").unwrap();
+    let place = |name: &str| names.lines().position(|one| one == name).unwrap();
+    for k in 1..40 {
+        let t = 5e-5 * f64::from(k);
+        let row = page.step(t, input, 8e-7 * (3e3 * t).sin()).unwrap();
+        let inside = page.inside(0, -1);
+        let agree = |index: usize, name: &str, count: f64| {
+            let value = row[place(name)];
+            assert!(
+                (count * inside[index] - value).abs() < 1e-9 * value.abs() + 1e-18,
+                "{k} {name}: {inside:?}"
+            );
+        };
+        assert_eq!(inside[0], t);
+        agree(1, "ball.d_m", 1.0);
+        agree(2, "ball.u_m", 1.0);
+        agree(4, "ball.fx_N", 3.0);
+    }
+}
+
 #[test]
 fn errors_are_those_of_check_and_leave_the_last_scenario() {
     let mut page = Page::default();

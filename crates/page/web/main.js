@@ -309,7 +309,7 @@ const live = { on: false, contact: 0 };
 async function startLive(body, at) {
   pause();
   const tree = structuredClone(page.tree);
-  const force = 2 * scene.force;
+  const force = 1.5 * (scene.friction || scene.force);
   tree.waveforms = { ...tree.waveforms, hand: { input: { initial: 0, range: [-force, force], interpolation: 'linear' } } };
   tree.loads = [...(tree.loads ?? []), { on: body, x: { follows: 'hand' } }];
   Object.assign(live, { on: true, body, from: at, to: at, force, t: 0, rows: [], names: null });
@@ -352,8 +352,8 @@ function showLive({ row, inside }) {
   if (live.rows.length > 6000) live.rows.splice(0, 1000);
   if (live.rows.length % 6 === 0 && page.pair) {
     const of = (name) => ({ name: plain(name), unit: unitOf(name), values: Float64Array.from(live.rows, (it) => it[index(name)]) });
-    plots.loop.row = undefined;
-    plots.staircase.row = undefined;
+    plots.loop.still();
+    plots.staircase.still();
     plots.loop.show({ x: of(page.pair[0]), ys: [of(page.pair[1])] });
     const time = { name: 'time', unit: 's', values: Float64Array.from(live.rows, (it) => it[0]) };
     plots.staircase.show({ x: time, ys: staircase().ys.map((_, k) => of(names()[k])) });

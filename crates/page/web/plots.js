@@ -113,7 +113,7 @@ export class Plot {
           ...(this.form.way ? { paths: wayPath, facets: [{ scale: 'x', auto: true }, { scale: 'y', auto: true }] } : {}),
         })),
       ],
-      hooks: { setScale: [() => this.retrace()] },
+      hooks: { draw: [() => this.retrace()] },
     };
     if (!this.form.way) delete options.scales.x.range;
     this.plot = new uPlot(options, this.data, this.place);
@@ -177,7 +177,10 @@ export class Plot {
     if (this.row !== undefined && this.plot) this.to(Math.min(this.row, (this.form.way ? this.data[1][0] : this.data[0]).length - 1));
   }
 
-  canvas() {
-    return this.plot?.ctx.canvas;
+  /** Takes trace and mark away. */
+  still() {
+    this.row = undefined;
+    this.dot?.remove();
+    this.trace.width = 0;
   }
 }

@@ -3,6 +3,9 @@
 import { colours, paint } from './theme.js';
 import { words } from './units.js';
 
+/** The lower and the upper body of a contact: the ground is always below. */
+const ends = ({ between: [first, second] }) => (second === 'ground' ? [second, first] : [first, second]);
+
 /** Levels of the bodies: what carries a body is below it. */
 function levels(scenario) {
   const bodies = Object.keys(scenario.bodies ?? {});
@@ -10,7 +13,7 @@ function levels(scenario) {
   const links = Object.values(scenario.springs ?? {}).concat(Object.values(scenario.stacks ?? {}), Object.values(scenario.actuators ?? {}));
   const level = Object.fromEntries(bodies.map((name) => [name, 0]));
   for (let round = 0; round < bodies.length; round += 1) {
-    for (const { between: [under, over] } of contacts) {
+    for (const [under, over] of contacts.map(ends)) {
       if (over in level) level[over] = Math.max(level[over], (level[under] ?? -1) + 1);
     }
   }
@@ -53,7 +56,8 @@ export class Scene {
     }
     this.most = most || 1e-9;
     const of = (suffix) => this.names.reduce((peak, name) => (columns[`${name}.${suffix}`] ?? []).reduce((a, b) => Math.max(a, Math.abs(b)), peak), 0);
-    this.force = Math.max(of('fx_N'), of('fn_N')) || 1;
+    this.friction = of('fx_N');
+    this.force = Math.max(this.friction, of('fn_N')) || 1;
     this.start = Object.fromEntries(Object.entries(columns).map(([name, column]) => [name, column[0]]));
   }
 
@@ -67,7 +71,8 @@ export class Scene {
       const floor = this.grounded || this.bodies.length < 2 ? 18 : 0;
       const gap = (height - 30 - floor) / rows;
       const tall = Math.min(64, gap * 0.55);
-      const amplitude = Math.min(width * 0.1, 44);
+      const crowd = Math.max(...Object.values(this.level).map((level, _, all) => all.filter((other) => other === level).length));
+      const amplitude = Math.min(width * 0.1, 44, (0.18 * (width - 40)) / crowd);
       const magnified = amplitude / this.most;
       const boxes = {};
       for (let level = 0; level < rows; level += 1) {
@@ -124,10 +129,11 @@ export class Scene {
 
   /** A contact: a cap below the upper body, coloured by its state, with the forces on the upper body. */
   contact(g, palette, name, value) {
-    const { between: [under, over], at } = this.scenario.contacts[name];
-    const [low, high] = [this.boxes[under], this.boxes[over] ?? this.boxes.ground];
+    const { between, at } = this.scenario.contacts[name];
+    const [under, over] = ends({ between });
+    const [low, high] = [this.boxes[under], this.boxes[over]];
     if (!low || !high) return;
-    const siblings = this.names.filter((other) => this.scenario.contacts[other].between[1] === over && this.scenario.contacts[other].between[0] === under);
+    const siblings = this.names.filter((other) => ends(this.scenario.contacts[other]).join() === [under, over].join());
     const places = siblings.map((other) => this.scenario.contacts[other].at?.[over]?.x ?? 0);
     const widest = Math.max(...places.map(Math.abs));
     const k = siblings.indexOf(name);
@@ -146,7 +152,9 @@ export class Scene {
     this.spots = this.spots ?? {};
     this.spots[name] = { x, y: middle, radius: Math.max(10, radius * 0.7) };
     const long = 46 / this.force;
-    const [fx, fn] = [value(`${name}.fx_N`), value(`${name}.fn_N`)];
+    // Channels are forces on the second body.
+    const fx = (over === between[1] ? 1 : -1) * value(`${name}.fx_N`);
+    const fn = value(`${name}.fn_N`);
     this.arrow(g, palette.series[4], [x, middle], [x + fx * long, middle]);
     this.arrow(g, palette.text, [x, middle], [x, middle - fn * long]);
     g.fillStyle = palette.text;
