@@ -132,7 +132,7 @@ pub(crate) enum Command {
     /// Evaluate measured hysteresis loops from a table; compare them with a simulation
     #[command(long_about = measure::ABOUT, after_long_help = measure::EXAMPLES)]
     Measure(MeasureArguments),
-    /// Fit parameters of a scenario to a measured loop or trajectory: values, intervals, correlations
+    /// Fit parameters to a measured loop or trajectory: values, intervals, correlations
     #[command(long_about = fit::ABOUT, after_long_help = fit::EXAMPLES)]
     Fit(FitArguments),
     /// Write a scenario for another program: as an FMU

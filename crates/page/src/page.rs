@@ -21,8 +21,16 @@ pub struct Page {
     job: Option<Arc<Job>>,
     going: Option<PartedRun>,
     ran: Option<Ran>,
-    live: Option<(Simulation, Look)>,
+    live: Option<Live>,
     hand: Option<Hand>,
+}
+
+/// A motion by hand.
+struct Live {
+    simulation: Simulation,
+    look: Look,
+    /// Positions at which each contact is shown.
+    frames: Vec<Frame>,
 }
 
 /// The slip memories at the end of an advance.
@@ -55,6 +63,8 @@ impl Record for Look {
 /// A finished run.
 struct Ran {
     outcome: Outcome,
+    /// Columns of the trace, with the rows after events if there are snapshots.
+    columns: Vec<Vec<f64>>,
     /// Positions at which each contact is shown.
     frames: Vec<Frame>,
 }
@@ -119,7 +129,12 @@ impl Page {
             Frame::new(law, memories.map(|memory| memory.apex().d).fold(0.0, f64::max))
         });
         let frames = frames.collect();
-        self.ran = Some(Ran { outcome, frames });
+        let table = outcome.table.as_ref();
+        let columns = table.map_or_else(Vec::new, |table| match outcome.snapshots.is_empty() {
+            true => table.clone().into_columns(),
+            false => table.merged(),
+        });
+        self.ran = Some(Ran { outcome, columns, frames });
     }
 
     /// Returns the number of rows of the last run.
@@ -128,11 +143,10 @@ impl Page {
         self.column(0).map_or(0, <[f64]>::len)
     }
 
-    /// Returns a column of the last run. Words are numbers: open 0, stick 1, partial 2, slip 3.
+    /// Returns a column of the last run, with the rows after events if the run had snapshots. Words are numbers: open 0, stick 1, partial 2, slip 3.
     #[must_use]
     pub fn column(&self, index: usize) -> Option<&[f64]> {
-        let table = self.ran.as_ref()?.outcome.table.as_ref()?;
-        table.column(&table.channels().get(index)?.name)
+        self.ran.as_ref()?.columns.get(index).map(Vec::as_slice)
     }
 
     /// Returns `summary.json` of the last run; empty without one.
@@ -199,15 +213,16 @@ impl Page {
                 return self.hand.as_ref().map(Hand::inside);
             }
             let (_, law) = self.job.as_ref()?.model.contacts().nth(contact)?;
-            let ran = self.ran.as_ref()?;
-            let frame = ran.frames.get(contact)?;
-            let inside = |t: f64, memories: &[Memory]| {
-                memories.get(contact).map(|memory| frame.inside(law, memory, [t, f64::NAN]))
+            let inside = |frames: &[Frame], t: f64, memories: &[Memory]| {
+                Some(frames.get(contact)?.inside(law, memories.get(contact)?, [t, f64::NAN]))
             };
-            match usize::try_from(index) {
-                Ok(index) => ran.outcome.snapshots.get(index).and_then(|(t, memories)| inside(*t, memories)),
-                Err(_) => self.live.as_ref().and_then(|(_, look)| inside(look.at, &look.memories)),
-            }
+            let Ok(index) = usize::try_from(index) else {
+                let Live { look, frames, .. } = self.live.as_ref()?;
+                return inside(frames, look.at, &look.memories);
+            };
+            let ran = self.ran.as_ref()?;
+            let (t, memories) = ran.outcome.snapshots.get(index)?;
+            inside(&ran.frames, *t, memories)
         };
         shown().unwrap_or_default()
     }
@@ -253,10 +268,13 @@ impl Page {
     /// # Errors
     /// No scenario is loaded, or the run cannot begin.
     pub fn live(&mut self) -> Result<String, String> {
-        let live = Simulation::new(Arc::clone(self.job()?)).map_err(|error| error.to_string())?;
-        let names: Vec<&str> = live.inputs().iter().map(|input| input.name.as_str()).collect();
+        let job = self.job()?;
+        let simulation = Simulation::new(Arc::clone(job)).map_err(|error| error.to_string())?;
+        let names: Vec<&str> = simulation.inputs().iter().map(|input| input.name.as_str()).collect();
         let names = names.join("\n");
-        self.live = Some((live, Look::default()));
+        let contacts = job.model.contacts().zip(job.start.memories());
+        let frames = contacts.map(|((_, law), memory)| Frame::new(law, memory.apex().d.max(0.0))).collect();
+        self.live = Some(Live { simulation, look: Look::default(), frames });
         Ok(names)
     }
 
@@ -265,11 +283,11 @@ impl Page {
     /// # Errors
     /// There is no such motion, the value is refused, or the run stops.
     pub fn step(&mut self, until: f64, input: usize, value: f64) -> Result<Vec<f64>, String> {
-        let (live, look) = self.live.as_mut().ok_or("no motion by hand has begun")?;
+        let Live { simulation, look, .. } = self.live.as_mut().ok_or("no motion by hand has begun")?;
         let values: &[(usize, f64)] = if value.is_nan() { &[] } else { &[(input, value)] };
         look.until = until;
-        live.advance(until, values, look).map_err(|error| error.to_string())?;
-        let held = live.held();
+        simulation.advance(until, values, look).map_err(|error| error.to_string())?;
+        let held = simulation.held();
         Ok(held.job().columns.of(&held.row()).map(|(value, _)| value).collect())
     }
 }

@@ -42,6 +42,9 @@ fn a_run_in_parts_has_the_bits_of_a_whole_run() {
         assert_eq!(whole.events(), parted.events());
         assert_eq!(without_time(&whole.summary()), without_time(&parted.summary()));
         if !text.contains("dopri5") {
+            let (rows, events) = (whole.rows(), whole.events().lines().count());
+            assert_eq!(parted.rows(), rows + events);
+            assert!(parted.column(0).unwrap().is_sorted());
             assert!(parted.inside(0, 39).len() > 15 && parted.inside(0, 40).is_empty());
         }
     }
@@ -78,8 +81,6 @@ fn a_contact_in_the_hand_follows_cattaneo_and_mindlin() {
 fn a_motion_by_hand_shows_the_inside_of_its_contact() {
     let mut page = Page::default();
     let names = page.load(&scenario("controlled")).unwrap();
-    page.begin(2).unwrap();
-    while page.go(u64::MAX) < 1.0 {}
     let input = page.live().unwrap().lines().position(|name| name == "drive").unwrap();
     let place = |name: &str| names.lines().position(|one| one == name).unwrap();
     for k in 1..40 {
@@ -93,7 +94,7 @@ fn a_motion_by_hand_shows_the_inside_of_its_contact() {
                 "{k} {name}: {inside:?}"
             );
         };
-        assert_eq!(inside[0], t);
+        assert!(inside[0] == t && inside[12] > 50.0);
         agree(1, "ball.d_m", 1.0);
         agree(2, "ball.u_m", 1.0);
         agree(4, "ball.fx_N", 3.0);

@@ -40,9 +40,10 @@ export function contactPage(place, fail) {
     select.onchange = () => {
       now.profile = select.value;
       knobs();
-      hold();
+      hold(null);
     };
-    const clear = element('button', { textContent: 'Untouched again', onclick: () => hold() });
+    select.value = now.profile;
+    const clear = element('button', { textContent: 'Untouched again', onclick: () => hold([0, 0]) });
     const loop = element('button', { textContent: 'Press and oscillate', onclick: () => oscillate() });
     parts = {
       pad, knobs: element('div'), moves: element('div'), equations: element('table', { className: 'equations' }),
@@ -61,13 +62,14 @@ export function contactPage(place, fail) {
     place.replaceChildren(left, right);
     right.querySelector('#row44').style.height = '260px';
     parts.row = right.querySelector('#row44');
+    parts.row.after(document.querySelector('#drive .legend').cloneNode(true));
     parts.profile = right.querySelector('#profile44');
     parts.surface = right.querySelector('#surface44');
     parts.loop = new Plot(right.querySelector('#loop44'), { way: true, label: '' });
     const drag = (event) => {
       const box = pad.getBoundingClientRect();
       const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
-      move((y * 1.3 - 0.15) * now.values['largest d'], (2 * x - 1) * reach());
+      move(Math.min(1, y * 1.3 - 0.15) * now.values['largest d'], (2 * x - 1) * reach());
     };
     pad.onpointerdown = (event) => {
       pad.setPointerCapture(event.pointerId);
@@ -78,7 +80,7 @@ export function contactPage(place, fail) {
       const [dd, du] = { ArrowDown: [1, 0], ArrowUp: [-1, 0], ArrowRight: [0, 1], ArrowLeft: [0, -1] }[event.key] ?? [0, 0];
       if (!dd && !du) return;
       event.preventDefault();
-      move(now.d + dd * now.values['largest d'] / 25, now.u + du * reach() / 40);
+      move(Math.min(now.values['largest d'], now.d + dd * now.values['largest d'] / 25), now.u + du * reach() / 40);
     };
     knobs();
   }
@@ -106,7 +108,7 @@ export function contactPage(place, fail) {
     const all = { ...numbers, ...COMMON };
     parts.knobs.replaceChildren(...Object.entries(all).map(([name, it]) => slider(name, it, now.values[name], (value) => {
       now.values[name] = value;
-      hold();
+      hold(name === 'largest d' ? null : [Math.min(now.d, now.values['largest d']), now.u]);
     })));
   }
 
@@ -120,8 +122,8 @@ export function contactPage(place, fail) {
   let holding = false;
   let stale = false;
 
-  /** Makes the contact anew, untouched. */
-  async function hold() {
+  /** Makes the contact anew, untouched, and moves it: to a point, or by default to half of gross slip. */
+  async function hold(to) {
     if (holding) {
       stale = true;
       return;
@@ -143,22 +145,26 @@ export function contactPage(place, fail) {
     fail(held.error ?? '');
     if (stale) {
       stale = false;
-      hold();
+      hold(to);
       return;
     }
     if (held.error) return;
     sheet = JSON.parse(held.text);
     way = [[0, 0, 0, 0, 0]];
-    await move(values['largest d'], 0);
-    await move(values['largest d'], 0.5 * sheet.pressed.gross_slip_displacement_m);
+    Object.assign(now, { d: 0, u: 0 });
+    const [d, u] = to ?? [values['largest d'], 0.5 * sheet.pressed.gross_slip_displacement_m];
+    await move(d, 0);
+    await move(d, u);
   }
 
   let pressing = false;
   let points = [];
 
+  /** Moves on a straight path, in pieces so that the loop shows what happens on the way. */
   async function move(d, u, keeps) {
+    const pieces = Math.max(1, Math.ceil(60 * Math.max(Math.abs(d - now.d) / now.values['largest d'], Math.abs(u - now.u) / reach())));
+    for (let k = 1; k <= pieces; k += 1) points.push([now.d + (d - now.d) * k / pieces, now.u + (u - now.u) * k / pieces]);
     Object.assign(now, { d, u });
-    points.push([d, u]);
     if (pressing) return;
     pressing = true;
     while (points.length) {
@@ -183,6 +189,7 @@ export function contactPage(place, fail) {
   async function oscillate() {
     const most = now.values['largest d'];
     const amplitude = 0.75 * sheet.pressed.gross_slip_displacement_m;
+    await move(-0.1 * most, now.u);
     await move(-0.1 * most, 0);
     way = way.slice(-1);
     await move(most, 0);
@@ -281,7 +288,7 @@ export function contactPage(place, fail) {
     const steps = Array.from({ length: 81 }, (_, k) => span * k / 80);
     const of = (points) => points.filter(([, y]) => Number.isFinite(y) && y <= most * 1.3);
     const g = sheet.normal.map((row) => [row.contact_radius_m, row.indentation_m]);
-    if (now.profile === 'flat') g.unshift([0, 0]);
+    if (now.profile === 'flat') g.splice(0, g.length, [0, 0], [now.values.radius, 0], [now.values.radius, most]);
     curves(parts.profile, [
       { points: of(steps.map((r) => [r, f(r, now.values)])), colour: 0, name: `f(r) = ${sheet.constants.f ?? ''}` },
       { points: of(g), colour: 1, name: `g(x) = ${sheet.constants.g ?? ''}` },
@@ -325,10 +332,10 @@ export function contactPage(place, fail) {
       ['(4.26)', 'F_N = 2E* ∫₀^a (d − g) dx', `F_N = ${words(inside.normal, 'N')}`],
       ['(4.22)', 'a spring sticks while |G* Δx (u − p)| < μE* Δx (d − g)', `${inside.springs.state.filter((state) => state === 1).length} of ${inside.springs.state.filter((state) => state > 0).length} stick`],
       ['(4.28)', 'u_c = κd, κ = μE*/G*', `u_c = ${words(slip, 'm')}`],
-      ['(4.27)', 'u = κ[d − g(c)] in a first loading', `c = ${words(inside.c, 'm')}`],
+      ['(4.27)', 'stick radius c; in a first loading u = κ[d − g(c)]', `c = ${words(inside.c, 'm')}`],
       ['(4.38)', 'F_x = μ[F_N(a) − F_N(c)] in a first loading; in general Σ over the springs', `F_x = ${words(inside.force, 'N')}`],
       ['(4.37)', 'F_x/(μF_N) over u/u_c', `${share(inside.force, limit)} at ${share(inside.u, slip)}`],
-      ['(4.25)', 'p(r), τ(r) from the line loads', `p(0) = ${words(inside.fields.p[0] ?? 0, 'Pa', 3)}, τ ≤ ${words(peak, 'Pa', 3)}`],
+      ['(4.25)', 'p(r), τ(r) from the line loads', `p(0) = ${now.profile === 'cone' && inside.d > 0 ? '∞' : words(inside.fields.p[0] ?? 0, 'Pa', 3)}, τ ≤ ${words(peak, 'Pa', 3)}`],
       ['(4.40)', 'W = ∫ friction · slip over all springs and the whole history', `W = ${words(inside.work, 'J')}`],
     ];
     parts.equations.replaceChildren(...rows.map((row) => element('tr', {}, ...row.map((text) => element('td', { textContent: text })))));
@@ -336,11 +343,19 @@ export function contactPage(place, fail) {
   }
 
   return {
+    /** What a link contains. */
+    state: () => ({ profile: now.profile, values: now.values, to: [now.d, now.u] }),
+    take({ profile, values, to }) {
+      if (!(profile in PROFILES)) throw new Error('The link names an unknown profile.');
+      Object.assign(now, { profile, to: to.map(Number) });
+      for (const [name, value] of Object.entries(values)) if (Number.isFinite(value)) now.values[name] = value;
+    },
+    title: () => `${now.profile.replaceAll('_', ' ')}: d = ${words(now.d, 'm', 3)}, u = ${words(now.u, 'm', 3)}, E = ${words(now.values.E, 'Pa', 3)}, μ = ${now.values.μ}`,
     async open() {
       if (!parts) {
         build();
         host = new Host();
-        await hold();
+        await hold(now.to);
       }
       redraw();
     },

@@ -5,17 +5,18 @@ const MOST = 1 << 20;
 
 const through = (bytes, stream) => new Blob([bytes]).stream().pipeThrough(stream);
 
-export async function pack(text) {
+/** `sign` tells what is packed: s a scenario, c a contact. */
+export async function pack(text, sign = 's') {
   const packed = new Uint8Array(await new Response(through(new TextEncoder().encode(text), new CompressionStream('deflate-raw'))).arrayBuffer());
   let binary = '';
   for (let k = 0; k < packed.length; k += 4096) binary += String.fromCharCode(...packed.subarray(k, k + 4096));
-  return `#s=${btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '')}`;
+  return `#${sign}=${btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '')}`;
 }
 
 /** The scenario in a fragment; throws an error in words. */
-export async function unpack(fragment) {
-  const coded = /^#s=([A-Za-z0-9_-]*)$/.exec(fragment)?.[1];
-  if (!coded) throw new Error('The link contains no scenario: expected # and s= with letters, digits, - and _.');
+export async function unpack(fragment, sign = 's') {
+  const coded = new RegExp(`^#${sign}=([A-Za-z0-9_-]*)$`).exec(fragment)?.[1];
+  if (!coded) throw new Error('The link contains no scenario: expected #s= with letters, digits, - and _.');
   const parts = [];
   let size = 0;
   try {

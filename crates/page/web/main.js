@@ -94,10 +94,10 @@ function run() {
 function thinned(tree) {
   const { duration, cycles } = tree.run ?? {};
   const [span, every] = [duration ?? cycles * slowest(tree), tree.output?.every];
-  if (!(typeof span === 'number' && typeof every === 'number' && span / every > MOST_ROWS)) return [JSON.stringify(tree), ''];
+  if (!(typeof span === 'number' && typeof every === 'number' && span / every > MOST_ROWS)) return [JSON.stringify(tree, null, 1), ''];
   const fewer = span / 20_000;
   const remark = `Rows every ${words(fewer, 's')} instead of ${words(every, 's')}: the scenario asks for more than ${MOST_ROWS.toLocaleString('en')} rows. The motion is the same.`;
-  return [JSON.stringify({ ...tree, output: { ...tree.output, every: fewer } }), remark];
+  return [JSON.stringify({ ...tree, output: { ...tree.output, every: fewer } }, null, 1), remark];
 }
 
 async function launch(fresh = false) {
@@ -133,13 +133,22 @@ function begin() {
   scene.load(about);
   const hasFree = scene.bodies.some((body) => about.scenario.bodies[body].x === 'free');
   $('hint').textContent = `${hasFree ? 'Drag a free body to push it by hand. ' : ''}${about.contacts.length > 1 ? 'Click a contact to look inside.' : ''}`;
-  sliders($('sliders'), about, change);
-  page.t = 0;
+  sliders($('sliders'), about, change, type);
 }
 
 function change(path, value) {
   set(page.tree, path, value);
   run();
+}
+
+/** A typed value: refused beside its field, or the new middle of its slider. */
+async function type(path, value, field) {
+  const tree = structuredClone(page.tree);
+  set(tree, path, value);
+  const { original } = page;
+  const refused = await take(JSON.stringify(tree, null, 1), original);
+  field.setAttribute('aria-invalid', !!refused);
+  field.title = refused ?? '';
 }
 
 const column = (name) => ({ name: plain(name), unit: unitOf(name), values: page.columns[name] });
@@ -158,6 +167,8 @@ function show({ events, summary }) {
   plots.staircase.show(staircase());
   if (page.pair) plots.loop.show({ x: column(page.pair[0]), ys: [column(page.pair[1])] });
   timeline.load(events, page.duration);
+  const step = summary.steps?.steady?.step_m ?? summary.steps?.last_m ?? summary.steps?.last_step_m;
+  $('key').textContent = step === undefined ? '' : ` · step ${words(step, 'm')}`;
   const why = (summary.steps?.why ?? summary.why ?? []).concat(summary.error ? [summary.error] : []);
   $('why').replaceChildren(...(why.length ? why : ['No drive periods are evaluated in this scenario.']).map((text) => Object.assign(document.createElement('p'), { textContent: text })));
   const rest = structuredClone(summary);
@@ -267,7 +278,7 @@ function play(until = page.duration) {
   const frame = (now) => {
     if (!page.playing || mine !== page.play) return;
     page.frames.push(now);
-    const t = page.t + ((now - last) / 1000) * rate();
+    const t = page.t + (Math.max(0, now - last) / 1000) * rate();
     last = now;
     seek(Math.min(t, until));
     if (t >= until) pause();
@@ -312,6 +323,9 @@ async function startLive(body, at) {
   const force = 1.5 * (scene.friction || scene.force);
   tree.waveforms = { ...tree.waveforms, hand: { input: { initial: 0, range: [-force, force], interpolation: 'linear' } } };
   tree.loads = [...(tree.loads ?? []), { on: body, x: { follows: 'hand' } }];
+  fail('');
+  page.states = null;
+  drawStates($('states'), null);
   Object.assign(live, { on: true, body, from: at, to: at, force, t: 0, rows: [], names: null });
   note(`You push ${body} by hand, with at most ${words(force, 'N', 3)}. Let go and press Escape to come back to the run.`);
   const loaded = await host.call('load', { text: JSON.stringify(tree) });
@@ -325,7 +339,7 @@ async function startLive(body, at) {
   let last = performance.now();
   const tick = async (now) => {
     if (!live.on) return;
-    live.t += Math.min(0.05, (now - last) / 1000) * rate();
+    live.t += Math.max(1e-3, Math.min(0.05, (now - last) / 1000)) * rate();
     last = now;
     const pull = Math.max(-1, Math.min(1, (live.to[0] - live.from[0]) / 140)) * live.force;
     const answer = await host.call('step', { until: live.t, input: live.input, value: pull, contact: page.contact });
@@ -404,6 +418,7 @@ $('scene').onkeyup = () => { if (live.on) live.to = live.from; };
 addEventListener('keydown', (event) => {
   if (event.key === 'Escape' && live.on) {
     stopLive();
+    fail('');
     run();
   }
   if (event.key === ' ' && event.target === document.body) {
@@ -436,9 +451,7 @@ $('axes').onchange = () => {
   plots.loop.to(rowAt(page.t));
 };
 $('reset').onclick = () => {
-  page.tree = structuredClone(page.original);
-  sliders($('sliders'), page.about, change);
-  run();
+  take(JSON.stringify(page.original));
 };
 $('steady').onclick = async () => {
   const answer = await watch(host.call('steady'));
@@ -463,15 +476,15 @@ async function copy(text, told) {
 }
 
 $('link').onclick = async () => {
-  const fragment = await pack(JSON.stringify(page.tree));
+  const fragment = $('drive').hidden ? await pack(JSON.stringify(solo.state()), 'c') : await pack(JSON.stringify(page.tree));
   history.replaceState(null, '', fragment);
-  await copy(location.href, 'The link is copied: it contains the scenario.');
+  await copy(location.href, 'The link is copied. It contains the numbers that you see.');
 };
 $('json').onclick = () => copy(`${JSON.stringify(page.tree, null, 2)}\n`, 'The scenario is copied.');
-for (const kind of ['png', 'svg']) $(kind).onclick = () => picture(kind, page.about?.title ?? 'stickslip', document.querySelector('main:not([hidden])'));
+for (const kind of ['png', 'svg']) $(kind).onclick = () => picture(kind, $('drive').hidden ? solo.title() : `${page.about?.title} · ${words(page.t, 's', 5)}`, document.querySelector('main:not([hidden])'));
 
-/** Takes the text of a scenario; an invalid one leaves the page as it is. */
-async function take(text) {
+/** Takes the text of a scenario; an invalid one leaves the page as it is, and is answered with its error. */
+async function take(text, original) {
   let answer = await watch(host.call('load', { text }));
   if (answer.error && /^\s*\{/.test(text)) {
     // It may only have too many rows. Errors are those of the text as it is.
@@ -483,15 +496,16 @@ async function take(text) {
       // The engine has said what is wrong.
     }
   }
-  if (answer.stale) return;
+  if (answer.stale) return undefined;
   if (answer.error) {
     fail(answer.error);
-    return;
+    return answer.error;
   }
   page.about = { ...answer.about, words: await meanings };
-  page.original = page.about.scenario;
-  page.tree = structuredClone(page.original);
+  page.original = original ?? page.about.scenario;
+  page.tree = structuredClone(page.about.scenario);
   await launch(true);
+  return undefined;
 }
 
 $('open').onclick = () => $('file').click();
@@ -521,6 +535,8 @@ function view(which) {
   $('drive').hidden = which !== 'drive';
   $('solo').hidden = which !== 'contact';
   pause();
+  $('title').textContent = which === 'contact' ? 'Contact: section 4.4' : page.about?.title ?? 'stickslip';
+  $('choice').hidden = which === 'contact' || scenes.length < 2;
   if (which === 'contact') solo.open();
 }
 $('view-drive').onclick = () => view('drive');
@@ -543,12 +559,21 @@ async function start() {
   if (location.hash.startsWith('#s=')) {
     try {
       await take(await unpack(location.hash));
+      $('scenarios').selectedIndex = -1;
       return;
     } catch (fault) {
       fail(fault.message);
     }
   }
   const named = scenes.find(({ name }) => `#${name}` === location.hash);
+  if (location.hash.startsWith('#c=')) {
+    try {
+      solo.take(JSON.parse(await unpack(location.hash, 'c')));
+    } catch (fault) {
+      fail(fault.message);
+    }
+    view('contact');
+  }
   if (location.hash === '#contact') view('contact');
   if (!page.about && scenes.length) {
     const first = named ?? scenes.find(({ name }) => name === 'quickstart') ?? scenes[0];

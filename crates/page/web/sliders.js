@@ -45,9 +45,10 @@ const element = (name, attributes = {}, ...inner) => {
 /**
  * @param {HTMLElement} place
  * @param {object} about what the engine says of the scenario
- * @param {(path: string, value: number | string) => void} change
+ * @param {(path: string, value: number) => void} change
+ * @param {(path: string, value: number | string, field: HTMLElement) => void} type a value is typed
  */
-export function sliders(place, about, change) {
+export function sliders(place, about, change, type) {
   const groups = new Map();
   for (const number of about.numbers) {
     const way = steps(number.path);
@@ -76,9 +77,12 @@ export function sliders(place, about, change) {
       } else {
         range.disabled = true;
       }
+      // A number without a unit has the unit that stood in the field.
+      const unit = text.value.replace(/^[-+0-9.e]+/, '').trim();
       text.onchange = () => {
         const written = text.value.trim();
-        change(number.path, written !== '' && Number.isFinite(+written) ? +written : written);
+        const bare = written !== '' && Number.isFinite(+written);
+        type(number.path, bare && !unit ? +written : bare ? `${written} ${unit}` : written, text);
       };
       return element('label', { className: 'slider', title: number.text }, element('span', { textContent: name }), range, text);
     });

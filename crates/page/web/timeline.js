@@ -83,6 +83,7 @@ export class Timeline {
   }
 
   tell(event) {
+    this.event = event;
     const why = event && WHY[event.kind]?.(this.values(event));
     this.told.textContent = event
       ? `${words(event.t, 's', 7)} · ${event.source}: ${event.kind}${why ? ` – ${why}` : ''}`
@@ -91,6 +92,7 @@ export class Timeline {
 
   draw(t) {
     this.t = t;
+    if (this.event && this.event.t !== t) this.tell(null);
     this.canvas.setAttribute('aria-valuenow', t);
     this.canvas.setAttribute('aria-valuetext', words(t, 's', 5));
     paint(this.canvas, (g, width, height) => {

@@ -28,6 +28,8 @@ pub struct Table {
     places: HashMap<String, usize>,
     columns: Vec<Vec<f64>>,
     events: Vec<Event>,
+    /// Values of the columns immediately after each event, event by event, if they are stored.
+    after: Option<Vec<f64>>,
 }
 
 impl Table {
@@ -44,7 +46,7 @@ impl Table {
         let places =
             channels.iter().enumerate().map(|(place, channel)| (channel.name.clone(), place)).collect();
         let columns = vec![Vec::new(); channels.len()];
-        Self { channels, taken, places, columns, events: Vec::new() }
+        Self { channels, taken, places, columns, events: Vec::new(), after: None }
     }
 
     /// Returns the table with capacity for `rows` rows.
@@ -52,6 +54,29 @@ impl Table {
     pub fn with_room(mut self, rows: usize) -> Self {
         self.columns.iter_mut().for_each(|column| column.reserve_exact(rows));
         self
+    }
+
+    /// Returns the table with the values of the columns immediately after each event.
+    #[must_use]
+    pub fn with_event_rows(self) -> Self {
+        Self { after: Some(Vec::new()), ..self }
+    }
+
+    /// Returns all columns in the order of the channels, with the rows after events between the rows of the trace.
+    #[must_use]
+    pub fn merged(&self) -> Vec<Vec<f64>> {
+        let (width, after) = (self.columns.len().max(1), self.after.as_deref().unwrap_or_default());
+        let mut merged = vec![Vec::with_capacity(self.rows() + after.len() / width); self.columns.len()];
+        let mut events = after.chunks(width).peekable();
+        for k in 0..=self.rows() {
+            let t = self.columns.first().and_then(|times| times.get(k)).copied().unwrap_or(f64::INFINITY);
+            while let Some(row) = events.next_if(|row| row[0] < t) {
+                merged.iter_mut().zip(row).for_each(|(column, value)| column.push(*value));
+            }
+            let row = self.columns.iter().map(|column| column.get(k));
+            merged.iter_mut().zip(row).for_each(|(column, value)| column.extend(value));
+        }
+        merged
     }
 
     /// Returns the channels in the order of the columns.
@@ -111,11 +136,14 @@ impl Record for Table {
         self.columns.iter_mut().zip(taken).for_each(|(column, value)| column.push(value));
     }
 
-    fn event(&mut self, event: &Event, _: &[f64]) {
+    fn event(&mut self, event: &Event, values: &[f64]) {
         self.events.push(*event);
+        if let Some(after) = &mut self.after {
+            after.extend(self.taken.iter().map(|place| values.get(*place).copied().unwrap_or(f64::NAN)));
+        }
     }
 
     fn wants_event_rows(&self) -> bool {
-        false
+        self.after.is_some()
     }
 }

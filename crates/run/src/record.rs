@@ -136,9 +136,11 @@ impl<'a> Recorder<'a> {
         Self { table: Some(Table::of(&self.job.columns)), ..self }
     }
 
-    /// Returns the recorder with the slip memories of all contacts at these ascending times (s) stored in memory. Without tables only.
+    /// Returns the recorder with the slip memories of all contacts at these ascending times (s) stored in memory, and with the rows after
+    /// events in [`Outcome::table`](crate::Outcome::table). Without tables on disk only.
     pub fn with_snapshots(self, times: Vec<f64>) -> Self {
-        Self { snapshots: times.into_iter(), ..self }
+        let table = self.table.map(Table::with_event_rows);
+        Self { snapshots: times.into_iter(), table, ..self }
     }
 
     /// Returns the recorder with an additional fingerprint of the tables, even if the tables are not written.
