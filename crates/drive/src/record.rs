@@ -127,7 +127,8 @@ pub struct Channel {
 }
 
 /// Returns the code of a contact's state in a row.
-fn state_code(state: ContactState) -> f64 {
+#[must_use]
+pub fn state_code(state: ContactState) -> f64 {
     match state {
         ContactState::Open => 0.0,
         ContactState::Stick => 1.0,

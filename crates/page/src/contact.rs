@@ -1,6 +1,7 @@
 //! The inside of a contact as numbers: springs, stresses and the memory curve.
 
-use stickslip_contact::{Apex, ContactState, Fields, Interface, Memory, Segment, SpringState, Springs};
+use stickslip_contact::{Apex, Fields, Interface, Memory, Segment, SpringState, Springs};
+use stickslip_drive::state_code;
 use stickslip_run::theory::LoadedSpring;
 
 /// Number of springs of a contact that is computed by its memory curve, and largest number of springs shown of a row.
@@ -45,15 +46,9 @@ impl Frame {
             Memory::Row(_) => Vec::new(),
         };
         let radius = law.profile().radius(apex.d);
-        let state = match now.state {
-            ContactState::Open => 0.0,
-            ContactState::Stick => 1.0,
-            ContactState::Partial => 2.0,
-            ContactState::Slip => 3.0,
-        };
         let forces = [law.normal_force(apex.d), now.force];
         let mut numbers = vec![t, apex.d, apex.u, forces[0], forces[1], radius, now.stick_radius];
-        numbers.extend([state, now.elastic, work, law.friction(), law.stick_slope()]);
+        numbers.extend([state_code(now.state), now.elastic, work, law.friction(), law.stick_slope()]);
         numbers.extend([springs.len(), fields.len(), knots.len()].map(|count| count as f64));
         for LoadedSpring { spring, normal_force, tangential_force, .. } in springs {
             let state = state_of(spring.state);
@@ -78,7 +73,7 @@ fn state_of(state: SpringState) -> f64 {
 }
 
 /// A contact that is moved by hand, without bodies.
-pub struct Hand {
+pub(crate) struct Hand {
     law: Interface,
     memory: Memory,
     frame: Frame,
@@ -88,8 +83,7 @@ pub struct Hand {
 
 impl Hand {
     /// Takes an untouched contact. `depth` is the largest indentation that is shown, m.
-    #[must_use]
-    pub fn new(law: &Interface, depth: f64) -> Self {
+    pub(crate) fn new(law: &Interface, depth: f64) -> Self {
         let memory = stickslip_contact::Engine::Curve.memory(law, Apex::default());
         Self { law: law.clone(), memory, frame: Frame::new(law, depth), work: 0.0 }
     }
@@ -98,7 +92,7 @@ impl Hand {
     ///
     /// # Errors
     /// The contact cannot be moved there, for instance because it would leave its profile.
-    pub fn press(&mut self, d: f64, u: f64) -> Result<(), String> {
+    pub(crate) fn press(&mut self, d: f64, u: f64) -> Result<(), String> {
         if !(d.is_finite() && u.is_finite()) {
             return Err("expected finite lengths".to_owned());
         }
@@ -108,8 +102,7 @@ impl Hand {
     }
 
     /// Returns the inside of the contact.
-    #[must_use]
-    pub fn inside(&self) -> Vec<f64> {
+    pub(crate) fn inside(&self) -> Vec<f64> {
         self.frame.inside(&self.law, &self.memory, [0.0, self.work])
     }
 }

@@ -7,5 +7,4 @@ mod contact;
 mod exports;
 mod page;
 
-pub use contact::Hand;
 pub use page::Page;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use stickslip_contact::Memory;
 use stickslip_drive::{Event, Record};
 use stickslip_run::theory::{Sheet, Subject};
-use stickslip_run::{Job, Outcome, PartedRun, Simulation, Summary, quantity_of};
+use stickslip_run::{Job, Outcome, PartedRun, Simulation, Summary, Table};
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::{self, Options};
 
@@ -63,8 +63,8 @@ impl Record for Look {
 /// A finished run.
 struct Ran {
     outcome: Outcome,
-    /// Columns of the trace, with the rows after events if there are snapshots.
-    columns: Vec<Vec<f64>>,
+    /// Columns of the trace with the rows after events, if there are snapshots.
+    merged: Vec<Vec<f64>>,
     /// Positions at which each contact is shown.
     frames: Vec<Frame>,
 }
@@ -129,12 +129,9 @@ impl Page {
             Frame::new(law, memories.map(|memory| memory.apex().d).fold(0.0, f64::max))
         });
         let frames = frames.collect();
-        let table = outcome.table.as_ref();
-        let columns = table.map_or_else(Vec::new, |table| match outcome.snapshots.is_empty() {
-            true => table.clone().into_columns(),
-            false => table.merged(),
-        });
-        self.ran = Some(Ran { outcome, columns, frames });
+        let table = outcome.table.as_ref().filter(|_| !outcome.snapshots.is_empty());
+        let merged = table.map_or_else(Vec::new, Table::merged);
+        self.ran = Some(Ran { outcome, merged, frames });
     }
 
     /// Returns the number of rows of the last run.
@@ -146,7 +143,10 @@ impl Page {
     /// Returns a column of the last run, with the rows after events if the run had snapshots. Words are numbers: open 0, stick 1, partial 2, slip 3.
     #[must_use]
     pub fn column(&self, index: usize) -> Option<&[f64]> {
-        self.ran.as_ref()?.columns.get(index).map(Vec::as_slice)
+        let Ran { outcome, merged, .. } = self.ran.as_ref()?;
+        let table = outcome.table.as_ref()?;
+        let merged = merged.get(index).map(Vec::as_slice);
+        merged.or_else(|| table.column(&table.channels().get(index)?.name))
     }
 
     /// Returns `summary.json` of the last run; empty without one.
@@ -186,20 +186,12 @@ impl Page {
             let range = it.range.map(|end| Some(end).filter(|end| end.is_finite()));
             json!({ "path": it.path, "value": it.value, "unit": it.unit, "range": range, "text": it.text })
         });
-        let columns = job.columns.channels().into_iter().map(|channel| {
-            let is_state = channel.is_state;
-            let of = quantity_of(channel);
-            json!({ "name": of.name, "unit": of.unit, "text": of.text, "state": is_state })
-        });
-        let contacts = job
-            .model
-            .contacts()
-            .map(|(name, law)| json!({ "name": name, "shape": law.profile().has_shape() }));
+        let columns = job.columns.channels().into_iter().map(|channel| channel.name);
+        let contacts = job.model.contacts().map(|(name, _)| name);
         let scenario: Value = serde_json::from_str(&job.resolved).unwrap_or_default();
         json!({
-            "title": job.title(), "sha256": job.hash, "program": job.program, "duration": job.scenario.plan.duration,
-            "scenario": scenario, "numbers": numbers.collect::<Vec<_>>(), "columns": columns.collect::<Vec<_>>(),
-            "contacts": contacts.collect::<Vec<_>>(),
+            "title": job.title(), "scenario": scenario, "numbers": numbers.collect::<Vec<_>>(),
+            "columns": columns.collect::<Vec<_>>(), "contacts": contacts.collect::<Vec<_>>(),
         })
         .to_string()
     }

@@ -63,9 +63,11 @@ function watch(promise) {
   });
 }
 
-$('cancel').onclick = () => {
+$('cancel').onclick = async () => {
   host.restart();
-  note('Cancelled. The pictures show the last finished run.');
+  // The last finished run is made anew, for the new engine knows nothing of it.
+  if (page.text) await take(page.text, page.original);
+  note('Cancelled. This is the last finished run.');
 };
 
 // A run.
@@ -108,6 +110,7 @@ async function launch(fresh = false) {
   fail(answer.error ?? '');
   if (answer.error) return;
   note(remark);
+  page.text = text;
   page.columns = answer.columns;
   page.rows = answer.columns.time_s.length;
   page.duration = page.columns.time_s[page.rows - 1] || 1;
@@ -121,11 +124,11 @@ async function launch(fresh = false) {
 function begin() {
   const { about } = page;
   document.title = `${about.title} · stickslip`;
-  $('title').textContent = about.title;
+  view();
   const shown = Math.min(page.contact, about.contacts.length - 1);
   page.contact = Math.max(0, shown);
-  $('contact').replaceChildren(...about.contacts.map((it, k) => new Option(it.name, k, k === page.contact, k === page.contact)));
-  const choices = about.contacts.flatMap((it) => [['u_m', 'fx_N'], ['d_m', 'fn_N']].filter((pair) => pair.every((end) => `${it.name}.${end}` in page.columns)).map((pair) => pair.map((end) => `${it.name}.${end}`)));
+  $('contact').replaceChildren(...about.contacts.map((name, k) => new Option(name, k, k === page.contact, k === page.contact)));
+  const choices = about.contacts.flatMap((name) => [['u_m', 'fx_N'], ['d_m', 'fn_N']].map((pair) => pair.map((end) => `${name}.${end}`)).filter((pair) => pair.every((it) => it in page.columns)));
   const bodies = Object.keys(about.scenario.bodies ?? {}).flatMap((body) => ['x', 'z'].map((axis) => [`${body}.${axis}_m`, `${body}.v${axis}_m_s`]).filter((pair) => pair.every((name) => name in page.columns)));
   page.pairs = [...choices, ...bodies];
   $('axes').replaceChildren(...page.pairs.map(([x, y], k) => new Option(`${plain(y)} over ${plain(x)}`, k)));
@@ -153,23 +156,24 @@ async function type(path, value, field) {
 
 const column = (name) => ({ name: plain(name), unit: unitOf(name), values: page.columns[name] });
 
-function staircase() {
+/** Columns over time: displacements of bodies that move, or the heights, or whatever there is. */
+function curves() {
   const names = scene.bodies.map((body) => `${body}.x_m`).filter((name) => name in page.columns);
   const moving = names.filter((name) => page.columns[name].some((value) => value !== page.columns[name][0]));
   const used = moving.length ? moving : Object.keys(page.columns).filter((name) => name.endsWith('z_m')).slice(0, 2);
-  const chosen = used.length ? used : Object.keys(page.columns).slice(1, 2);
-  return { x: { ...column('time_s'), name: 'time' }, ys: chosen.map(column) };
+  return used.length ? used : Object.keys(page.columns).slice(1, 2);
 }
 
 function show({ events, summary }) {
   const begun = performance.now();
   scene.scale(page.columns);
-  plots.staircase.show(staircase());
+  page.curves = curves();
+  plots.staircase.show({ x: { ...column('time_s'), name: 'time' }, ys: page.curves.map(column) });
   if (page.pair) plots.loop.show({ x: column(page.pair[0]), ys: [column(page.pair[1])] });
   timeline.load(events, page.duration);
-  const step = summary.steps?.steady?.step_m ?? summary.steps?.last_m ?? summary.steps?.last_step_m;
+  const step = summary.steps?.steady?.step_m ?? summary.steps?.last_m;
   $('key').textContent = step === undefined ? '' : ` · step ${words(step, 'm')}`;
-  const why = (summary.steps?.why ?? summary.why ?? []).concat(summary.error ? [summary.error] : []);
+  const why = (summary.steps?.why ?? []).concat(summary.error ? [summary.error] : []);
   $('why').replaceChildren(...(why.length ? why : ['No drive periods are evaluated in this scenario.']).map((text) => Object.assign(document.createElement('p'), { textContent: text })));
   const rest = structuredClone(summary);
   if (rest.steps) delete rest.steps.why;
@@ -357,7 +361,7 @@ async function startLive(body, at) {
 
 function showLive({ row, inside }) {
   const index = (name) => live.names.get(name);
-  live.names ??= new Map(page.about.columns.map((it, k) => [it.name, k]));
+  live.names ??= new Map(page.about.columns.map((name, k) => [name, k]));
   const value = (name) => (index(name) === undefined ? undefined : row[index(name)]);
   const pulled = Math.abs(live.to[0] - live.from[0]) > 2;
   scene.draw(value, pulled ? { from: live.from, to: live.to } : null);
@@ -370,12 +374,10 @@ function showLive({ row, inside }) {
     plots.staircase.still();
     plots.loop.show({ x: of(page.pair[0]), ys: [of(page.pair[1])] });
     const time = { name: 'time', unit: 's', values: Float64Array.from(live.rows, (it) => it[0]) };
-    plots.staircase.show({ x: time, ys: staircase().ys.map((_, k) => of(names()[k])) });
+    plots.staircase.show({ x: time, ys: page.curves.map(of) });
   }
   $('now').textContent = words(live.t, 's', 5);
 }
-
-const names = () => scene.bodies.map((body) => `${body}.x_m`).filter((name) => name in page.columns && page.columns[name].some((value) => value !== page.columns[name][0]));
 
 function stopLive() {
   if (!live.on) return;
@@ -393,7 +395,7 @@ $('scene').onpointerdown = (event) => {
   const at = point(event);
   const hit = scene.at(...at);
   if (hit?.contact) {
-    choose(page.about.contacts.findIndex((it) => it.name === hit.contact));
+    choose(page.about.contacts.indexOf(hit.contact));
   } else if (hit?.body && page.about.scenario.bodies[hit.body].x === 'free') {
     $('scene').setPointerCapture(event.pointerId);
     if (live.on && live.body === hit.body) Object.assign(live, { from: at, to: at });
@@ -433,7 +435,7 @@ function choose(contact) {
   page.contact = contact;
   $('contact').value = contact;
   page.states = null;
-  const { name } = page.about.contacts[contact];
+  const name = page.about.contacts[contact];
   const pair = page.pairs.findIndex(([x]) => x === `${name}.u_m` || x === `${name}.d_m`);
   if (pair >= 0) {
     page.pair = page.pairs[pair];
@@ -525,22 +527,25 @@ addEventListener('drop', async (event) => {
 $('scenarios').replaceChildren(...scenes.map(({ name }) => new Option(name.replaceAll('_', ' '), name)));
 $('choice').hidden = scenes.length < 2;
 $('scenarios').onchange = () => {
+  pause();
   view('drive');
   take(scenes.find(({ name }) => name === $('scenarios').value).text);
 };
 
 const solo = contactPage($('solo'), fail);
-function view(which) {
+/** Shows one of the two views, or the present one with its title. */
+function view(which = $('drive').hidden ? 'contact' : 'drive') {
   for (const name of ['drive', 'contact']) $(`view-${name}`).setAttribute('aria-pressed', name === which);
   $('drive').hidden = which !== 'drive';
   $('solo').hidden = which !== 'contact';
-  pause();
   $('title').textContent = which === 'contact' ? 'Contact: section 4.4' : page.about?.title ?? 'stickslip';
   $('choice').hidden = which === 'contact' || scenes.length < 2;
   if (which === 'contact') solo.open();
 }
-$('view-drive').onclick = () => view('drive');
-$('view-contact').onclick = () => view('contact');
+for (const which of ['drive', 'contact']) $(`view-${which}`).onclick = () => {
+  pause();
+  view(which);
+};
 
 dark.addEventListener('change', () => {
   Object.values(plots).forEach((plot) => plot.restyle());
@@ -575,7 +580,7 @@ async function start() {
     view('contact');
   }
   if (location.hash === '#contact') view('contact');
-  if (!page.about && scenes.length) {
+  if (named ? named.name !== $('scenarios').value || !page.about : !page.about && scenes.length) {
     const first = named ?? scenes.find(({ name }) => name === 'quickstart') ?? scenes[0];
     $('scenarios').value = first.name;
     const said = document.documentElement.dataset.error;

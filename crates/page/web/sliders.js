@@ -90,5 +90,9 @@ export function sliders(place, about, change, type) {
     details.dataset.group = group;
     return details;
   });
+  // Who types goes on where they are.
+  const { activeElement } = document;
+  const label = place.contains(activeElement) ? activeElement.ariaLabel : null;
   place.replaceChildren(...parts);
+  if (label) [...place.querySelectorAll('input')].find((it) => it.ariaLabel === label)?.focus();
 }

@@ -230,7 +230,10 @@ test('a run of a million periods can be cancelled, and 10⁶ springs', { skip },
   const part = await tab.evaluate(() => document.getElementById('progress').value);
   assert.ok(part > 0 && part < 1, `${part}`);
   await tab.click('#cancel');
-  await tab.waitForSelector('#busy', { state: 'hidden' });
+  // The last finished run is there again, and so is its engine.
+  await tab.waitForFunction(() => /Cancelled/.test(document.getElementById('note').textContent));
+  await tab.click('#steady');
+  await tab.waitForFunction(() => /153/.test(document.getElementById('orbit').textContent));
   const slow = JSON.parse(scenario('quickstart'));
   slow.contacts.ball.engine = { springs: { count: 1_000_000 } };
   await tab.evaluate((text) => {
@@ -262,6 +265,15 @@ test('keyboard alone, narrow and dark', { skip }, async () => {
   await tab.keyboard.press('Enter');
   assert.equal(await tab.getAttribute('#play', 'aria-label'), 'Pause');
   await tab.keyboard.press('Enter');
+  const field = 'input[aria-label="contacts.ball.friction, value"]';
+  await tab.focus(field);
+  for (const [typed, shown] of [['abc', true], ['0.1', false]]) {
+    await tab.fill(field, typed);
+    await tab.keyboard.press('Enter');
+    await tab.waitForFunction((wanted) => !document.getElementById('error').hidden === wanted, shown);
+  }
+  await tab.waitForFunction(() => /170/.test(document.getElementById('key').textContent));
+  assert.equal(await tab.evaluate(() => document.activeElement.ariaLabel), 'contacts.ball.friction, value');
   await tab.focus('#view-contact');
   await tab.keyboard.press('Enter');
   await tab.waitForSelector('#pad');

@@ -8,6 +8,7 @@ const PART = 30;
 const QUIET = 200;
 
 let engine;
+let ready;
 let run = 0;
 const looked = new MessageChannel();
 const resumed = [];
@@ -104,11 +105,12 @@ const calls = {
 
 onmessage = async ({ data: { id, name, args, module } }) => {
   if (module) {
-    engine = await Engine.of(module);
+    ready = Engine.of(module).then((made) => { engine = made; });
     return;
   }
   let answer;
   try {
+    await ready;
     answer = await calls[name](args ?? {});
   } catch (fault) {
     answer = { error: `the engine stopped: ${fault.message ?? fault}`, fatal: true };

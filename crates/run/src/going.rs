@@ -45,7 +45,7 @@ impl Watcher for Owner {
 pub struct PartedRun(Going);
 
 impl PartedRun {
-    /// Prepares a run that stores the slip memories of all contacts at `snapshots`, ascending times, s.
+    /// Prepares a run that stores the slip memories of all contacts at `snapshots`, ascending times, s, and with them the rows after events.
     ///
     /// # Errors
     /// The errors of [`Run::new`]; in particular, the stepper `dopri5` cannot pause.
@@ -54,7 +54,8 @@ impl PartedRun {
         let going = Going::try_new(owner, |owner| {
             let Owner { job, .. } = owner;
             let run = Run::new(&job.model, &job.scenario.plan, job.start.clone())?;
-            let recorder = Recorder::new(job, owner).with_table().with_snapshots(snapshots);
+            let recorder = Recorder::new(job, owner).with_table();
+            let recorder = if snapshots.is_empty() { recorder } else { recorder.with_snapshots(snapshots) };
             Ok(Course { run, recorder, ended: None })
         });
         going.map(Self)

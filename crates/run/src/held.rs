@@ -61,7 +61,7 @@ pub struct Quantity {
 }
 
 /// Returns a channel with its unit and description.
-pub fn quantity_of(channel: Channel) -> Quantity {
+pub(crate) fn quantity_of(channel: Channel) -> Quantity {
     Quantity { unit: names::unit(&channel.name), text: TRACE.text(&channel.name), name: channel.name }
 }
 

@@ -69,7 +69,7 @@ pub mod warning;
 pub use columns::Columns;
 pub use excess::Excess;
 pub use going::PartedRun;
-pub use held::{Held, HeldError, Quantity, quantity_of};
+pub use held::{Held, HeldError, Quantity};
 pub use job::{Job, Refusal};
 pub use kept::Kept;
 pub use memory::Table;
