@@ -13,7 +13,7 @@ mod sum;
 
 use crate::contact::{Contact, Motion, Press};
 pub(crate) use balance::Instant;
-pub(crate) use sum::{Components, Reading, View};
+pub(crate) use sum::{Components, Positions, Reading, Sum, View, accelerate};
 
 use crate::interval::{Interval, Kernel, Pull};
 use crate::model::{Binding, BlockState, Measure};
@@ -21,7 +21,6 @@ use crate::state::{Generating, Layout, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::{Law, Memory};
 use stickslip_stepper::{Conservative, System};
-use sum::{Positions, Sum};
 
 /// Relative tolerance for the end of a waveform's smooth piece, for steps that may cross corners.
 const CORNER_SLACK: f64 = 1e-9;
@@ -247,7 +246,7 @@ impl Equations<'_> {
     /// Returns the precomputed equations until the next event, if they contain all forces.
     #[inline(always)]
     fn kernel(&self) -> Option<&Kernel<'_>> {
-        self.interval.map(|interval| &interval.kernel).filter(|kernel| kernel.is_whole())
+        self.interval.map(|interval| &interval.kernel).filter(|kernel| kernel.is_laid_out())
     }
 
     /// Computes accelerations without velocities, and the input power, W.
@@ -258,11 +257,10 @@ impl Equations<'_> {
         let (dv, input) = out.split_at_mut(self.layout.free);
         let mut sum = Sum::new(self.model, dv);
         self.contacts(at, &mut sum, &mut []);
-        if !self.model.links.is_empty() {
-            self.links(at, &mut sum);
-        }
+        self.model.links.iter().for_each(|link| self.link(link, at, &mut sum));
         // Contacts compute their friction work from the memory; nothing else dissipates.
-        (input[0], _) = sum.accelerate(self.model);
+        input[0] = sum.input;
+        accelerate(self.model, dv);
     }
 }
 
@@ -282,7 +280,7 @@ impl System for Equations<'_> {
     #[inline]
     fn slopes(&self, t: f64, y: &[f64], dy: &mut [f64]) {
         match self.kernel() {
-            Some(kernel) => kernel.slopes(self, (t, y), dy),
+            Some(kernel) => kernel.slopes(self, t, y, dy),
             None => self.all_slopes(t, y, dy),
         }
     }
@@ -308,23 +306,18 @@ impl Equations<'_> {
         let mut sum = Sum::new(self.model, dv);
         let at = Components { t, y: |i: usize| y[i] };
         self.contacts(&at, &mut sum, extra);
-        if !self.model.links.is_empty() {
-            self.links(&at, &mut sum);
-        }
-        for load in &self.model.loads {
-            let force = load.arm * self.sample(load.waveform, t).value;
-            sum.dv[load.free] += force;
-            sum.input += force * v[load.free];
-        }
+        self.model.links.iter().for_each(|link| self.link(link, &at, &mut sum));
+        self.loads(t, v, &mut sum);
         if !self.model.blocks.is_empty() {
             self.blocks(&at, &mut sum, extra);
         }
         if !self.model.balanced.is_empty() {
             self.balance(&at, &mut sum, extra);
         }
-        let (input, damping) = sum.accelerate(self.model);
+        let powers = [sum.input, sum.damping];
+        accelerate(self.model, dv);
         let first = layout.input() - 2 * layout.free;
-        (extra[first], extra[first + 1]) = (input, damping);
+        [extra[first], extra[first + 1]] = powers;
         for contact in self.model.contacts.iter().filter(|contact| contact.normal_damping > 0.0) {
             self.grow_damped(contact, &at, dv, extra);
         }
@@ -348,7 +341,7 @@ impl Conservative for Equations<'_> {
                     pulls => pulls.iter().for_each(add),
                 }
             }
-            (x, out, Some(Interval { kernel, .. })) if kernel.is_whole() => {
+            (x, out, Some(Interval { kernel, .. })) if kernel.is_laid_out() => {
                 kernel.accelerations(self, (t, x), out);
             }
             (x, out, _) => self.accelerate(&Positions { t, x }, out),

@@ -17,10 +17,12 @@ mod swing;
 pub(crate) use closed::Closed;
 use closed::closed_form;
 pub(crate) use followed::Followed;
-pub(crate) use kernel::Kernel;
+pub(crate) use kernel::{Kernel, Lever, Row, Sparse};
 pub(crate) use slider::{Pull, Slider};
 pub(crate) use swing::{PhasePoint, Swing};
 
+use crate::contact::Motion;
+use crate::equations::Equations;
 use crate::method::{IntervalTraits, SceneTraits, Tally, Treatment, is_undamped, treatment};
 use crate::model::{Free, Model};
 use crate::state::State;
@@ -37,6 +39,8 @@ pub(crate) struct Interval<'a> {
     pub(crate) apart: Vec<usize>,
     /// Index of each contact in the list `closed`, if its force has a closed form.
     places: Vec<Option<usize>>,
+    /// Motions of contacts without a closed-form force, laid out flat where prescribed motions permit it, by contact.
+    pub(crate) levers: Vec<Option<Lever<'a, Sparse>>>,
     /// Properties of model and interval that determine the integration method.
     pub(crate) scene: SceneTraits,
     pub(crate) traits: IntervalTraits,
@@ -62,11 +66,12 @@ impl<'a> Interval<'a> {
             others: Vec::with_capacity(count),
             apart: Vec::with_capacity(count),
             places: Vec::with_capacity(count),
+            levers: Vec::with_capacity(count),
             pulls: Vec::with_capacity(count),
             scene: SceneTraits::of(model),
             traits: IntervalTraits::default(),
             slider: None,
-            kernel: Kernel::default(),
+            kernel: Kernel::of(model),
         }
     }
 
@@ -76,8 +81,9 @@ impl<'a> Interval<'a> {
         self.pulls.reserve(model.contacts.len());
         [&mut self.others, &mut self.apart].into_iter().for_each(|list| list.clear());
         self.places.clear();
-        self.kernel.reserve(model);
-        Self { scene: SceneTraits::of(model), traits: IntervalTraits::default(), slider: None, ..self }
+        self.levers.clear();
+        let kernel = self.kernel.renewed(model);
+        Self { kernel, scene: SceneTraits::of(model), traits: IntervalTraits::default(), slider: None, ..self }
     }
 
     /// Returns the allocated memory of the interval, empty and without a model.
@@ -86,6 +92,7 @@ impl<'a> Interval<'a> {
             closed: emptied(self.closed),
             pulls: emptied(self.pulls),
             kernel: self.kernel.emptied(),
+            levers: emptied(self.levers),
             others: self.others,
             apart: self.apart,
             places: self.places,
@@ -107,14 +114,24 @@ impl<'a> Interval<'a> {
         self.others.iter().chain(&self.apart).copied()
     }
 
+    /// Returns the motion of a contact without a closed-form force at time t (s) with components y.
+    #[inline(always)]
+    pub(crate) fn motion(&self, eq: &Equations<'_>, c: usize, (t, y): (f64, &[f64])) -> Motion {
+        let (contact, n) = (&eq.model.contacts[c], self.scene.free);
+        match &self.levers[c] {
+            Some(lever) => lever.motion(contact, t, (&y[..n], &y[n..2 * n])),
+            None => eq.motion(contact, t, |i| y[i]),
+        }
+    }
+
     /// Returns whether all contacts have a closed-form force.
     #[inline(always)]
     pub(crate) fn is_closed(&self) -> bool {
         self.others.is_empty() && self.apart.is_empty()
     }
 
-    /// Updates the laws of some contacts after an event that changed nothing else. Returns false, without a change, if one of these
-    /// contacts has no closed-form force before or after the event.
+    /// Updates the laws of some contacts after an event that changed nothing else. Returns false if the interval must begin anew: where a
+    /// contact opens or touches, or gets a law without precomputed forces.
     pub(crate) fn renew(
         &mut self,
         model: &'a Model,
@@ -123,21 +140,29 @@ impl<'a> Interval<'a> {
     ) -> bool {
         let stays = |c: usize| {
             let has_form = |branch: &Branch| is_undamped(&model.contacts[c], branch);
-            self.closed_form(c).is_some() && state.modes[c].branch().is_some_and(has_form)
+            match self.places.get(c) {
+                Some(Some(_)) => state.modes[c].branch().is_some_and(has_form),
+                // A contact under constant load may get a closed form.
+                _ => !model.contacts[c].is_constant() && self.others.contains(&c),
+            }
         };
         if !changed.clone().all(stays) {
             return false;
         }
         for c in changed {
-            if let (Some(place), Some(branch)) = (self.places[c], state.modes[c].branch()) {
-                self.closed[place].renew(branch, Guard::of(&model.contacts[c], &state.modes[c]));
-                self.kernel.renew(place, self.closed[place].branch);
+            match (self.places[c], state.modes[c].branch()) {
+                (Some(place), Some(branch)) => {
+                    self.closed[place].renew(branch, Guard::of(&model.contacts[c], &state.modes[c]));
+                    self.kernel.renew(place, self.closed[place].branch);
+                }
+                _ if self.kernel.renew_moving(c, &state.modes[c]) => {}
+                _ => return false,
             }
         }
         self.traits.slides = self.slides(state);
         self.traits.asked = false;
         // All other precomputed data is still valid.
-        if !self.kernel.is_whole() {
+        if !self.kernel.is_laid_out() {
             self.act(model, state);
         }
         true
@@ -154,6 +179,7 @@ impl<'a> Interval<'a> {
         self.others.clear();
         self.apart.clear();
         self.places.clear();
+        self.levers.clear();
         for (c, (contact, mode)) in model.contacts.iter().zip(&state.modes).enumerate() {
             let place = self.closed.len();
             let mut followed = None;
@@ -161,13 +187,16 @@ impl<'a> Interval<'a> {
                 followed = Followed::of(&contact.u, model, state);
                 followed.is_some()
             };
-            match treatment(contact, mode, of).0 {
+            let treatment = treatment(contact, mode, of).0;
+            match treatment {
                 Treatment::Spared => {}
                 Treatment::Apart => self.apart.push(c),
                 Treatment::Closed => self.closed.extend(closed_form(c, (contact, mode), followed)),
                 Treatment::General => self.others.push(c),
             }
             self.places.push((place < self.closed.len()).then_some(place));
+            let is_open_form = matches!(treatment, Treatment::Apart | Treatment::General);
+            self.levers.push(if is_open_form { Lever::of(contact, model, state) } else { None });
         }
         self.traits = IntervalTraits {
             slides: self.slides(state),

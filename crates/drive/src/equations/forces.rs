@@ -34,7 +34,7 @@ impl Equations<'_> {
     /// The normal force is -count·E\*M(d) along d, if bodies press the contact. The tangential force is -count·F_x along u, with the damping
     /// force ([`Law::damped`](stickslip_contact::Law::damped)).
     #[inline(never)]
-    fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
+    pub(crate) fn contact(&self, c: usize, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
         let (contact, law) = (&self.model.contacts[c], &self.modes[c]);
         let u = self.read(&contact.u, at);
         let (d, dd, reduced_force) = self.press(contact, at, sum);
@@ -146,19 +146,27 @@ impl Equations<'_> {
         extra[self.layout.friction(slot) - from] = rates.friction;
     }
 
-    /// Adds the forces k(s - e) + c(ṡ - ė) + preload of springs, dampers and actuators with elongation e and free stroke s.
+    /// Adds the force k(s - e) + c(ṡ - ė) + preload of a spring, damper or actuator with elongation e and free stroke s.
     ///
     /// An actuator's input power is (k(s - e) + c(ṡ - ė))ṡ. The work of the preload counts as potential energy.
     #[inline(never)]
-    pub(super) fn links(&self, at: &impl View, sum: &mut Sum<'_>) {
-        for link in &self.model.links {
-            let elongation = self.read(&link.elongation, at);
-            let stroke = self.stroke(link, at);
-            let (stretch, rate) = (stroke.value - elongation.value, stroke.rate - elongation.rate);
-            let force = link.stiffness * stretch + link.damping * rate;
-            sum.apply(&link.elongation.free, elongation.driven, force + link.preload);
-            sum.input += force * stroke.rate;
-            sum.damping += link.damping * rate * rate;
+    pub(crate) fn link(&self, link: &Link, at: &impl View, sum: &mut Sum<'_>) {
+        let elongation = self.read(&link.elongation, at);
+        let stroke = self.stroke(link, at);
+        let (stretch, rate) = (stroke.value - elongation.value, stroke.rate - elongation.rate);
+        let force = link.stiffness * stretch + link.damping * rate;
+        sum.apply(&link.elongation.free, elongation.driven, force + link.preload);
+        sum.input += force * stroke.rate;
+        sum.damping += link.damping * rate * rate;
+    }
+
+    /// Adds varying loads and their input power; `v` are the velocities of the free coordinates.
+    #[inline(always)]
+    pub(crate) fn loads(&self, t: f64, v: &[f64], sum: &mut Sum<'_>) {
+        for load in &self.model.loads {
+            let force = load.arm * self.sample(load.waveform, t).value;
+            sum.dv[load.free] += force;
+            sum.input += force * v[load.free];
         }
     }
 

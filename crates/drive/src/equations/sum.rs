@@ -4,6 +4,7 @@
 //! forces and powers by means of the Jacobian of the contact displacements.
 
 use crate::Model;
+use crate::interval::Row;
 use crate::model::Terms;
 
 /// Access to time and state components for an evaluation.
@@ -37,9 +38,9 @@ impl<Y: Fn(usize) -> f64> View for Components<Y> {
 }
 
 /// View of positions only.
-pub(super) struct Positions<'a> {
-    pub(super) t: f64,
-    pub(super) x: &'a [f64],
+pub(crate) struct Positions<'a> {
+    pub(crate) t: f64,
+    pub(crate) x: &'a [f64],
 }
 
 impl View for Positions<'_> {
@@ -66,32 +67,23 @@ pub(crate) struct Reading {
 }
 
 /// Sums of forces on the free coordinates and of powers.
-pub(super) struct Sum<'a> {
-    /// Forces on free coordinates, N or N m; accelerations after [`Sum::accelerate`].
-    pub(super) dv: &'a mut [f64],
+pub(crate) struct Sum<'a> {
+    /// Forces on free coordinates, N or N m; see [`accelerate`].
+    pub(crate) dv: &'a mut [f64],
     /// Power of prescribed motions and loads, W.
-    pub(super) input: f64,
+    pub(crate) input: f64,
     /// Power of dampers, W.
-    pub(super) damping: f64,
+    pub(crate) damping: f64,
 }
 
 impl<'a> Sum<'a> {
     /// Creates sums that contain gravity and constant loads; their work counts as potential energy, not as power.
     #[inline(always)]
-    pub(super) fn new(model: &Model, dv: &'a mut [f64]) -> Self {
+    pub(crate) fn new(model: &Model, dv: &'a mut [f64]) -> Self {
         for (dv, free) in dv.iter_mut().zip(&model.free) {
             *dv = free.force;
         }
         Self { dv, input: 0.0, damping: 0.0 }
-    }
-
-    /// Converts forces to accelerations. Returns input and damping power, W.
-    #[inline(always)]
-    pub(super) fn accelerate(self, model: &Model) -> (f64, f64) {
-        for (dv, free) in self.dv.iter_mut().zip(&model.free) {
-            *dv *= free.mobility;
-        }
-        (self.input, self.damping)
     }
 
     /// Adds a force along a displacement that is a linear form of the coordinates. The opposite force acts on the source of the prescribed
@@ -104,5 +96,20 @@ impl<'a> Sum<'a> {
             self.dv[i] += a * force;
         }
         self.input -= force * driven;
+    }
+
+    /// Adds a force along a displacement that is laid out flat, as [`Sum::apply`].
+    #[inline(always)]
+    pub(crate) fn along(&mut self, row: &impl Row, driven: f64, force: f64) {
+        row.pull(self.dv, force);
+        self.input -= force * driven;
+    }
+}
+
+/// Converts the forces on the free coordinates to accelerations.
+#[inline(always)]
+pub(crate) fn accelerate(model: &Model, dv: &mut [f64]) {
+    for (dv, free) in dv.iter_mut().zip(&model.free) {
+        *dv *= free.mobility;
     }
 }

@@ -1,229 +1,296 @@
 //! Precomputed forces of the time interval between two events (kernel).
 //!
-//! Each step evaluates the equations about ten times. For up to [`WIDTH`] free coordinates, all data until the next event are stored
-//! contiguously: padded rows of Jacobians, prescribed motions in closed form, and laws of contacts. Larger models use sparse rows
-//! ([`wide`]). Curved prescribed motions, rows of springs, the full force law, blocks and varying loads require the general [`Equations`],
-//! with the same result.
+//! Each step evaluates the equations about ten times. All data that stay until the next event are therefore stored contiguously: rows of
+//! Jacobians, prescribed motions in closed form, and laws of contacts. Up to four coordinates, rows have a constant length. Elements
+//! without such a form (curved prescribed motions, rows of springs, the full force law) use the general [`Equations`], with the same
+//! result.
 
 mod contacts;
 mod length;
-mod ties;
-mod wide;
+mod links;
 
 use super::{Closed, emptied};
-use crate::equations::Equations;
+use crate::equations::{Components, Equations, Positions, Sum, View, accelerate};
 use crate::model::Model;
 use crate::state::State;
+pub(crate) use contacts::Lever;
 use contacts::{Moving, Steady};
-use length::{Row, Sums};
-use stickslip_contact::FixedDepthBranch;
-use ties::Tie;
-use wide::Wide;
-
-/// Largest number of free coordinates with padded rows: two bodies in two directions.
-pub(crate) const WIDTH: usize = 4;
+use length::Dense;
+pub(crate) use length::{Row, Sparse};
+use links::{Spring, Tie};
+use stickslip_contact::{FixedDepthBranch, Law};
 
 /// Precomputed forces of the time interval between two events. Scratch memory, rebuilt after each event.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Kernel<'a> {
-    extent: Extent,
-    /// Sum of gravity and constant loads, N or N m, and inverse mass of each coordinate.
-    forces: Row,
-    mobilities: Row,
-    steady: Vec<Steady<'a>>,
-    moving: Vec<Moving<'a>>,
-    links: Vec<Tie<'a>>,
-    wide: Wide<'a>,
+pub(crate) enum Kernel<'a> {
+    /// For models that need the general equations.
+    #[default]
+    None,
+    One(Forces<'a, Dense<1>>),
+    Two(Forces<'a, Dense<2>>),
+    Three(Forces<'a, Dense<3>>),
+    Four(Forces<'a, Dense<4>>),
+    Many(Forces<'a, Sparse>),
 }
 
-/// Completeness of the precomputed forces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-enum Extent {
-    /// Incomplete: the general equations are used.
-    #[default]
-    Part,
-    /// Complete, with padded rows.
-    Narrow,
-    /// Complete, with sparse rows.
-    Wide,
+/// Forces of all elements, with the rows of one number of coordinates.
+#[derive(Debug, Clone)]
+pub(crate) struct Forces<'a, R> {
+    /// Whether the forces are those of the interval; otherwise the general equations are used.
+    is_laid_out: bool,
+    steady: Vec<Steady<'a, R>>,
+    moving: Vec<Moving<'a, R>>,
+    springs: Vec<Spring<R>>,
+    ties: Vec<Tie<'a, R>>,
+    /// Contacts and links that use the general equations, and whether there are any.
+    is_general: bool,
+    others: Vec<usize>,
+    links: Vec<usize>,
+}
+
+/// Evaluates an expression with the forces of the kernel, whatever their rows.
+macro_rules! each {
+    ($kernel:expr, $forces:ident => $act:expr, $none:expr) => {
+        match $kernel {
+            Self::None => $none,
+            Self::One($forces) => $act,
+            Self::Two($forces) => $act,
+            Self::Three($forces) => $act,
+            Self::Four($forces) => $act,
+            Self::Many($forces) => $act,
+        }
+    };
 }
 
 impl<'a> Kernel<'a> {
-    /// Returns whether the forces of a model may be precomputed.
-    fn fits(model: &Model) -> bool {
-        !model.free.is_empty()
-            && model.loads.is_empty()
-            && model.blocks.is_empty()
-            && model.balanced.is_empty()
+    /// Returns a kernel without forces, with memory for those of a model.
+    pub(super) fn of(model: &Model) -> Self {
+        match rows(model) {
+            Some(1) => Self::One(Forces::of(model)),
+            Some(2) => Self::Two(Forces::of(model)),
+            Some(3) => Self::Three(Forces::of(model)),
+            Some(4) => Self::Four(Forces::of(model)),
+            Some(_) => Self::Many(Forces::of(model)),
+            None => Self::None,
+        }
     }
 
-    /// Reserves memory for the forces of a model.
-    pub(super) fn reserve(&mut self, model: &Model) {
-        self.clear();
-        if model.free.len() > WIDTH {
-            return self.wide.reserve(model);
+    /// Returns the kernel for another model, in the same memory if that has the same rows.
+    pub(super) fn renewed(mut self, model: &Model) -> Self {
+        let fits = match &self {
+            Self::None => rows(model).is_none(),
+            Self::One(_) => rows(model) == Some(1),
+            Self::Two(_) => rows(model) == Some(2),
+            Self::Three(_) => rows(model) == Some(3),
+            Self::Four(_) => rows(model) == Some(4),
+            Self::Many(_) => rows(model).is_some_and(|free| free > 4),
+        };
+        if !fits {
+            return Self::of(model);
         }
-        self.steady.reserve(model.contacts.len());
-        self.moving.reserve(model.contacts.len());
-        self.links.reserve(model.links.len());
+        each!(&mut self, forces => forces.reserve(model), {});
+        self
     }
 
     /// Returns the allocated memory of the kernel, empty.
     pub(super) fn emptied(self) -> Kernel<'static> {
-        let (steady, moving, links) = (emptied(self.steady), emptied(self.moving), emptied(self.links));
-        Kernel { steady, moving, links, wide: self.wide.emptied(), ..Kernel::default() }
+        match self {
+            Self::None => Kernel::None,
+            Self::One(forces) => Kernel::One(forces.emptied()),
+            Self::Two(forces) => Kernel::Two(forces.emptied()),
+            Self::Three(forces) => Kernel::Three(forces.emptied()),
+            Self::Four(forces) => Kernel::Four(forces.emptied()),
+            Self::Many(forces) => Kernel::Many(forces.emptied()),
+        }
     }
 
     /// Clears the precomputed forces, so that the general equations are used.
     pub(super) fn clear(&mut self) {
-        self.extent = Extent::Part;
-        self.steady.clear();
-        self.moving.clear();
-        self.links.clear();
-        self.wide.clear();
+        each!(self, forces => forces.clear(), {});
     }
 
-    /// Computes the forces of an interval. The kernel stays incomplete if an element has no precomputed form.
+    /// Computes the forces of an interval, whose contacts `closed` have closed-form forces; `others` are pressed, too.
     pub(super) fn lay_out(
         &mut self,
         (model, state): (&'a Model, &State),
         closed: &[Closed<'a>],
         others: &[usize],
     ) {
-        self.clear();
-        if !Self::fits(model) {
-            return;
-        }
-        if model.free.len() > WIDTH {
-            if others.is_empty() && self.wide.lay_out((model, state), closed).is_some() {
-                self.extent = Extent::Wide;
-            }
-            return;
-        }
-        for (i, free) in model.free.iter().enumerate() {
-            (self.forces[i], self.mobilities[i]) = (free.force, free.mobility);
-        }
-        self.steady.extend(closed.iter().map(Steady::of));
-        for &c in others {
-            let Some(moving) = Moving::of(c, model, state) else { return };
-            self.moving.push(moving);
-        }
-        for link in &model.links {
-            let Some(tie) = Tie::of(link, model, state) else { return };
-            self.links.push(tie);
-        }
-        self.extent = Extent::Narrow;
+        each!(self, forces => forces.lay_out((model, state), closed, others), {});
     }
 
     /// Sets another branch of the slip memory for a contact, given by its index among those with a closed-form force.
     pub(super) fn renew(&mut self, place: usize, branch: FixedDepthBranch) {
-        match self.extent {
-            Extent::Part => {}
-            Extent::Narrow => self.steady[place].renew(branch),
-            Extent::Wide => self.wide.renew(place, branch),
-        }
+        each!(self, forces => forces.steady.get_mut(place).into_iter().for_each(|it| it.renew(branch)), {});
     }
 
-    /// Returns whether the kernel contains all forces.
+    /// Sets another law of contact `c`, which has no closed-form force. Returns false if the forces must be computed anew.
+    pub(super) fn renew_moving(&mut self, c: usize, law: &Law) -> bool {
+        each!(self, forces => forces.renew_moving(c, law), false)
+    }
+
+    /// Returns whether the kernel has the forces of the interval.
     #[inline(always)]
-    pub(crate) fn is_whole(&self) -> bool {
-        self.extent != Extent::Part
+    pub(crate) fn is_laid_out(&self) -> bool {
+        each!(self, forces => forces.is_laid_out, false)
     }
 
     /// Writes the slopes of all components, as [`Equations::slopes`](stickslip_stepper::System::slopes).
     #[inline(always)]
-    pub(crate) fn slopes(&self, eq: &Equations<'_>, (t, y): (f64, &[f64]), dy: &mut [f64]) {
-        match (eq.layout.free, self.moving.is_empty()) {
-            _ if self.extent == Extent::Wide => self.wide.slopes(eq, (t, y), dy),
-            (1, true) => Self::slopes_of::<1, false>(eq, t, y, dy, self),
-            (2, true) => Self::slopes_of::<2, false>(eq, t, y, dy, self),
-            (3, true) => Self::slopes_of::<3, false>(eq, t, y, dy, self),
-            (_, true) => Self::slopes_of::<4, false>(eq, t, y, dy, self),
-            (1, false) => Self::slopes_of::<1, true>(eq, t, y, dy, self),
-            (2, false) => Self::slopes_of::<2, true>(eq, t, y, dy, self),
-            (3, false) => Self::slopes_of::<3, true>(eq, t, y, dy, self),
-            (_, false) => Self::slopes_of::<4, true>(eq, t, y, dy, self),
-        }
+    pub(crate) fn slopes(&self, eq: &Equations<'_>, t: f64, y: &[f64], dy: &mut [f64]) {
+        each!(self, forces => Forces::slopes(eq, t, y, dy, forces), {});
     }
 
     /// Writes accelerations, computed without velocities, and the input power.
     #[inline(always)]
-    pub(crate) fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
-        match x.len() {
-            _ if self.extent == Extent::Wide => self.wide.accelerations(eq, (t, x), out),
-            1 => self.accelerations_of::<1>((t, x), out),
-            2 => self.accelerations_of::<2>((t, x), out),
-            3 => self.accelerations_of::<3>((t, x), out),
-            _ => self.accelerations_of::<4>((t, x), out),
-        }
+    pub(crate) fn accelerations(&self, eq: &Equations<'_>, at: (f64, &[f64]), out: &mut [f64]) {
+        each!(self, forces => forces.accelerations(eq, at, out), {});
+    }
+}
+
+/// Returns the number of free coordinates, if the forces of the model may be precomputed.
+fn rows(model: &Model) -> Option<usize> {
+    // Blocks and balanced coordinates need the forces of all others first; so does the rate of an indentation with damping.
+    let fits = !model.free.is_empty()
+        && model.blocks.is_empty()
+        && model.balanced.is_empty()
+        && model.contacts.iter().all(|contact| contact.normal_damping == 0.0);
+    fits.then_some(model.free.len())
+}
+
+impl<'a, R: Row> Forces<'a, R> {
+    fn of(model: &Model) -> Self {
+        let (steady, moving, springs, ties) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (others, links) = (Vec::new(), Vec::new());
+        let mut forces = Self {
+            is_laid_out: false,
+            steady,
+            moving,
+            springs,
+            ties,
+            is_general: false,
+            others,
+            links,
+        };
+        forces.reserve(model);
+        forces
     }
 
-    /// Returns sums of forces that initially contain the constant forces.
-    #[inline(always)]
-    fn sums<const N: usize>(&self) -> Sums<N> {
-        Sums { forces: std::array::from_fn(|i| self.forces[i]), input: 0.0, damping: 0.0 }
+    fn reserve(&mut self, model: &Model) {
+        self.clear();
+        self.steady.reserve(model.contacts.len());
+        self.moving.reserve(model.contacts.len());
+        self.others.reserve(model.contacts.len());
+        self.springs.reserve(model.links.len());
+        self.ties.reserve(model.links.len());
+        self.links.reserve(model.links.len());
     }
 
-    /// Writes the slopes for N coordinates. `MOVING` says whether a contact has variable depth or damping; these laws need all registers.
-    ///
-    /// The order of the arguments avoids moves between registers at the call.
-    #[inline(never)]
-    fn slopes_of<const N: usize, const MOVING: bool>(
-        eq: &Equations<'_>,
-        t: f64,
-        y: &[f64],
-        dy: &mut [f64],
-        kernel: &Self,
-    ) {
-        let (Some((coordinates, _)), Some((slopes, extra))) =
-            (y.split_at_checked(2 * N), dy.split_at_mut_checked(2 * N))
-        else {
-            return;
-        };
-        let (([x, v], _), ([dx, dv], _)) = (coordinates.as_chunks::<N>(), slopes.as_chunks_mut::<N>()) else {
-            return;
-        };
-        *dx = *v;
-        // Besides powers there are only slopes of growing contacts; models with blocks or balanced coordinates have no kernel.
-        let growing = eq.layout.growing;
-        if growing > 0 {
-            extra.fill(0.0);
-        }
-        let mut sums = kernel.sums::<N>();
-        for steady in &kernel.steady {
-            steady.act(t, x, &mut sums);
-        }
-        if MOVING {
-            for moving in &kernel.moving {
-                moving.act((eq, y), t, (x, v), (&mut sums, extra));
+    fn emptied(mut self) -> Forces<'static, R> {
+        self.clear();
+        let Self { springs, others, links, .. } = self;
+        let (steady, moving, ties) = (emptied(self.steady), emptied(self.moving), emptied(self.ties));
+        Forces { is_laid_out: false, steady, moving, springs, ties, is_general: false, others, links }
+    }
+
+    fn clear(&mut self) {
+        self.is_laid_out = false;
+        self.steady.clear();
+        self.moving.clear();
+        self.springs.clear();
+        self.ties.clear();
+        self.others.clear();
+        self.links.clear();
+    }
+
+    fn lay_out(&mut self, (model, state): (&'a Model, &State), closed: &[Closed<'a>], others: &[usize]) {
+        self.clear();
+        self.steady.extend(closed.iter().map(Steady::of));
+        for &c in others {
+            match Moving::of(c, model, state) {
+                Some(moving) => self.moving.push(moving),
+                None => self.others.push(c),
             }
         }
-        for tie in &kernel.links {
-            tie.act(t, (x, Some(v)), &mut sums);
+        for (k, link) in model.links.iter().enumerate() {
+            let tie = Tie::of(link, model, state);
+            match (tie.as_ref().and_then(Spring::of), tie) {
+                (Some(spring), _) => self.springs.push(spring),
+                (None, Some(tie)) => self.ties.push(tie),
+                (None, None) => self.links.push(k),
+            }
         }
-        for ((slope, force), mobility) in dv.iter_mut().zip(sums.forces).zip(kernel.mobilities) {
-            *slope = force * mobility;
+        self.is_general = !self.others.is_empty() || !self.links.is_empty();
+        self.is_laid_out = true;
+    }
+
+    fn renew_moving(&mut self, c: usize, law: &Law) -> bool {
+        self.moving.iter_mut().find(|moving| moving.index == c).is_some_and(|moving| moving.renew(law))
+    }
+
+    // The order of the arguments avoids moves between registers at the call.
+    #[inline(never)]
+    fn slopes(eq: &Equations<'_>, t: f64, y: &[f64], dy: &mut [f64], forces: &Self) {
+        let n = eq.layout.free;
+        let (x, v) = (&y[..n], &y[n..2 * n]);
+        let (dx, rest) = dy.split_at_mut(n);
+        let (dv, extra) = rest.split_at_mut(n);
+        dx.copy_from_slice(v);
+        extra.fill(0.0);
+        let mut powers = R::summed(eq.model, dv, |mut sum| {
+            for steady in &forces.steady {
+                steady.act(t, x, &mut sum);
+            }
+            for moving in &forces.moving {
+                moving.act((eq, y), t, (x, v), (&mut sum, extra));
+            }
+            forces.act_on_links(t, (x, Some(v)), &mut sum);
+            [sum.input, sum.damping]
+        });
+        if forces.is_general || !eq.model.loads.is_empty() {
+            let mut sum = Sum { dv, input: powers[0], damping: powers[1] };
+            forces.act_generally(eq, &Components { t, y: |i: usize| y[i] }, &mut sum, extra);
+            eq.loads(t, v, &mut sum);
+            powers = [sum.input, sum.damping];
         }
-        if let Some([input, damping, ..]) = extra.get_mut(growing..) {
-            (*input, *damping) = (sums.input, sums.damping);
-        }
+        accelerate(eq.model, dv);
+        let first = eq.layout.input() - 2 * n;
+        [extra[first], extra[first + 1]] = powers;
     }
 
     #[inline(never)]
-    fn accelerations_of<const N: usize>(&self, (t, x): (f64, &[f64]), out: &mut [f64]) {
-        let (Some(x), Some((dv, input))) = (x.first_chunk::<N>(), out.split_first_chunk_mut::<N>()) else {
-            return;
-        };
-        let mut sums = self.sums::<N>();
-        for steady in &self.steady {
-            steady.act(t, x, &mut sums);
+    fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
+        let (dv, input) = out.split_at_mut(x.len());
+        input[0] = R::summed(eq.model, dv, |mut sum| {
+            for steady in &self.steady {
+                steady.act(t, x, &mut sum);
+            }
+            self.act_on_links(t, (x, None), &mut sum);
+            sum.input
+        });
+        if self.is_general || !self.moving.is_empty() {
+            let (mut sum, at) = (Sum { dv, input: input[0], damping: 0.0 }, Positions { t, x });
+            self.moving.iter().for_each(|moving| eq.contact(moving.index, &at, &mut sum, &mut []));
+            self.act_generally(eq, &at, &mut sum, &mut []);
+            input[0] = sum.input;
         }
-        for tie in &self.links {
-            tie.act(t, (x, None), &mut sums);
+        accelerate(eq.model, dv);
+    }
+
+    #[inline(always)]
+    fn act_on_links(&self, t: f64, at: (&[f64], Option<&[f64]>), sum: &mut Sum<'_>) {
+        for spring in &self.springs {
+            spring.act(at.0, sum.dv);
         }
-        for ((slope, force), mobility) in dv.iter_mut().zip(sums.forces).zip(self.mobilities) {
-            *slope = force * mobility;
+        for tie in &self.ties {
+            tie.act(t, at, sum);
         }
-        input[0] = sums.input;
+    }
+
+    /// Adds the forces of the elements without a precomputed form.
+    #[inline(never)]
+    fn act_generally(&self, eq: &Equations<'_>, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
+        self.others.iter().for_each(|c| eq.contact(*c, at, sum, extra));
+        self.links.iter().for_each(|k| eq.link(&eq.model.links[*k], at, sum));
     }
 }

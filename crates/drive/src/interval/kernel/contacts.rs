@@ -1,44 +1,50 @@
 //! Contacts in the precomputed forces of an interval.
 
-use super::length::{Length, Sums, dot, row};
+use super::length::{Length, Row};
 use crate::contact::{Contact, Motion, Press};
-use crate::equations::Equations;
+use crate::equations::{Equations, Sum};
 use crate::interval::Closed;
 use crate::model::Model;
 use crate::state::State;
 use crate::{Piece, Waveform};
-use stickslip_contact::{Branch, FixedDepthBranch, Profile};
+use stickslip_contact::{Branch, FixedDepthBranch, Law, Profile};
 
 /// Contact at constant indentation on one branch of its slip memory, with a closed-form force.
 #[derive(Debug, Clone)]
-pub(super) struct Steady<'a> {
-    u: Length<'a>,
+pub(super) struct Steady<'a, R> {
+    u: Length<'a, R>,
     count: f64,
     branch: FixedDepthBranch,
     profile: &'a Profile,
 }
 
-/// Contact with variable indentation, damping or growth, whose force has no closed form in u alone.
+/// Motion of a contact, laid out flat.
 #[derive(Debug, Clone)]
-pub(super) struct Moving<'a> {
-    index: usize,
-    contact: &'a Contact,
-    u: Length<'a>,
-    depth: Depth<'a>,
-    form: Form,
-    /// Indices of its friction work, force and elastic energy in the state, if it may grow.
-    slot: Option<[usize; 3]>,
+pub(crate) struct Lever<'a, R> {
+    u: Length<'a, R>,
+    depth: Depth<'a, R>,
 }
 
 /// Source of the indentation.
 #[derive(Debug, Clone)]
-enum Depth<'a> {
+enum Depth<'a, R> {
     /// Constant indentation d (m) with the reduced normal force M(d) (m²).
     Constant { d: f64, reduced_force: f64 },
     /// Motion of the bodies.
-    Coupled(Length<'a>),
+    Coupled(Length<'a, R>),
     /// Indentation prescribed by the present smooth piece of a waveform.
     Prescribed { waveform: &'a Waveform, piece: Piece },
+}
+
+/// Contact with variable indentation, damping or growth, whose force has no closed form in u alone.
+#[derive(Debug, Clone)]
+pub(super) struct Moving<'a, R> {
+    pub(super) index: usize,
+    contact: &'a Contact,
+    lever: Lever<'a, R>,
+    form: Form,
+    /// Indices of its friction work, force and elastic energy in the state, if it may grow.
+    slot: Option<[usize; 3]>,
 }
 
 /// Law of a contact in the forms of a kernel.
@@ -48,9 +54,9 @@ enum Form {
     Grow,
 }
 
-impl<'a> Steady<'a> {
+impl<'a, R: Row> Steady<'a, R> {
     pub(super) fn of(closed: &Closed<'a>) -> Self {
-        let u = Length { row: row(&closed.contact.u.free), followed: closed.followed };
+        let u = Length { row: R::of(&closed.contact.u.free), followed: closed.followed };
         let profile = closed.contact.interface.profile();
         Self { u, count: closed.contact.count, branch: closed.branch, profile }
     }
@@ -61,64 +67,95 @@ impl<'a> Steady<'a> {
     }
 
     #[inline(always)]
-    pub(super) fn act<const N: usize>(&self, t: f64, x: &[f64; N], sums: &mut Sums<N>) {
-        let followed = self.u.followed.at(t);
-        let u = dot(&self.u.row, x) + followed.value;
-        sums.apply(&self.u.row, followed.rate, -self.count * self.branch.force(self.profile, u));
+    pub(super) fn act(&self, t: f64, x: &[f64], sum: &mut Sum<'_>) {
+        let u = self.u.at(t, x, None);
+        sum.along(&self.u.row, u.driven, -self.count * self.branch.force(self.profile, u.value));
     }
 }
 
-impl<'a> Moving<'a> {
-    pub(super) fn of(index: usize, model: &'a Model, state: &State) -> Option<Self> {
-        let contact = &model.contacts[index];
-        if contact.normal_damping > 0.0 {
+impl<'a, R: Row> Lever<'a, R> {
+    /// Returns the motion of a contact without damping along the normal, if its prescribed parts have closed forms.
+    pub(crate) fn of(contact: &'a Contact, model: &'a Model, state: &State) -> Option<Self> {
+        // The motion of a row depends on its law.
+        if contact.normal_damping > 0.0 || !contact.engine.branches() || model.free.is_empty() {
             return None;
         }
         let depth = match &contact.press {
             Press::Constant { d, reduced_force } => Depth::Constant { d: *d, reduced_force: *reduced_force },
             Press::Coupled(measure) => Depth::Coupled(Length::of(measure, model, state)?),
-            // Without growth only accelerations may be evaluated, which this form does not support.
-            Press::Force(_) | Press::Indentation(_) | Press::Radius(_) if contact.slot.is_none() => {
-                return None;
-            }
+            // Outputs of blocks have no piece.
             Press::Force(w) | Press::Indentation(w) | Press::Radius(w) => {
-                // Outputs of blocks have no piece.
                 Depth::Prescribed { waveform: model.waveforms.get(*w)?, piece: *state.pieces.get(*w)? }
             }
         };
+        Some(Self { u: Length::of(&contact.u, model, state)?, depth })
+    }
+
+    /// Returns the motion of the contact at time t (s) with positions x and velocities v.
+    #[inline(always)]
+    pub(crate) fn motion(&self, contact: &Contact, t: f64, (x, v): (&[f64], &[f64])) -> Motion {
+        let u = self.u.at(t, x, Some(v));
+        let (d, dd) = match &self.depth {
+            Depth::Constant { d, .. } => (*d, 0.0),
+            Depth::Coupled(length) => {
+                let d = length.at(t, x, Some(v));
+                (d.value, d.rate)
+            }
+            Depth::Prescribed { waveform, piece } => contact.pressed(waveform.sample(piece, t), None),
+        };
+        Motion { d, u: u.value, dd, du: u.rate }
+    }
+
+    /// Returns d̈ and ü, m/s², from the accelerations of the coordinates. A waveform that presses the contact directly is not included.
+    #[inline(always)]
+    pub(crate) fn second(&self, t: f64, a: &[f64]) -> (f64, f64) {
+        let bend = match &self.depth {
+            Depth::Coupled(length) => length.bend(t, a),
+            Depth::Constant { .. } | Depth::Prescribed { .. } => 0.0,
+        };
+        (bend, self.u.bend(t, a))
+    }
+}
+
+impl<'a, R: Row> Moving<'a, R> {
+    /// Returns the contact under a law; `None` for laws that only the general equations have.
+    pub(super) fn of(index: usize, model: &'a Model, state: &State) -> Option<Self> {
+        let contact = &model.contacts[index];
         let straight = contact.goes_straight(&state.pieces);
         let layout = model.layout();
         let slot = contact.slot.filter(|_| !straight);
-        let law = &state.modes[index];
-        let form = match law.branch() {
-            Some(branch) => Form::Slip(*branch),
-            // Otherwise the memory computes the force.
-            None if law.grows() && slot.is_some() => Form::Grow,
-            None => return None,
-        };
-        let u = Length::of(&contact.u, model, state)?;
         let slot = slot.map(|slot| [layout.friction(slot), layout.force(slot), layout.elastic(slot)]);
-        Some(Self { index, contact, u, depth, form, slot })
+        let form = Form::of(&state.modes[index], slot.is_some())?;
+        Some(Self { index, contact, lever: Lever::of(contact, model, state)?, form, slot })
+    }
+
+    /// Sets another law. Returns false if only the general equations have it.
+    pub(super) fn renew(&mut self, law: &Law) -> bool {
+        let form = Form::of(law, self.slot.is_some());
+        let has_form = form.is_some();
+        self.form = form.unwrap_or(Form::Grow);
+        has_form
     }
 
     /// Adds the contact forces: normal -count·E\*M(d) along d, if bodies press the contact, and tangential -count·F_x with damping along u.
     #[inline(always)]
-    pub(super) fn act<const N: usize>(
+    pub(super) fn act(
         &self,
         (eq, y): (&Equations<'_>, &[f64]),
         t: f64,
-        at: (&[f64; N], &[f64; N]),
-        (sums, extra): (&mut Sums<N>, &mut [f64]),
+        (x, v): (&[f64], &[f64]),
+        (sum, extra): (&mut Sum<'_>, &mut [f64]),
     ) {
-        let (contact, u) = (self.contact, self.u.at(t, at));
+        let (contact, v, n) = (self.contact, Some(v), x.len());
+        let u = self.lever.u.at(t, x, v);
         let law = &contact.interface;
-        let (d, dd, reduced_force) = match &self.depth {
+        let (d, dd, reduced_force) = match &self.lever.depth {
             Depth::Constant { d, reduced_force } => (*d, 0.0, *reduced_force),
             Depth::Coupled(length) => {
-                let d = length.at(t, at);
+                let d = length.at(t, x, v);
                 let reduced_force = law.reduced_force(d.value);
                 let press = contact.count * (law.normal_modulus() * reduced_force);
-                sums.apply(&length.row, d.driven, -press);
+                sum.along(&length.row, d.driven, -press);
                 (d.value, d.rate, reduced_force)
             }
             Depth::Prescribed { waveform, piece } => {
@@ -131,45 +168,50 @@ impl<'a> Moving<'a> {
             Form::Slip(branch) if branch.covers(d, u.value) => match self.slot {
                 Some([friction, ..]) => {
                     let [force, power] = branch.drag(law, &motion, reduced_force);
-                    extra[friction - 2 * N] = power;
+                    extra[friction - 2 * n] = power;
                     force
                 }
                 None => branch.force(law, d, u.value, reduced_force),
             },
             // During growth, and where the branch does not apply, the memory computes the force.
-            _ => self.ask::<N>((eq, y), &motion, extra),
+            _ => self.ask((eq, y), &motion, extra),
         };
         let force = if law.damping() > 0.0 {
             let (memory, law) = eq.law(self.index);
             let [force, damping] = law.damped((contact, memory), &motion, force);
             // Dissipated in sticking springs, separate from friction. Steps of fixed length integrate it along their paths.
             if eq.layout.located {
-                sums.damping += contact.count * damping * motion.du;
+                sum.damping += contact.count * damping * motion.du;
             }
             force
         } else {
             force
         };
-        sums.apply(&self.u.row, u.driven, -contact.count * force);
+        sum.along(&self.lever.u.row, u.driven, -contact.count * force);
     }
 
     /// Returns the force (N) of one contact from its slip memory, and writes the derivatives of its states.
     #[inline(never)]
-    fn ask<const N: usize>(
-        &self,
-        (eq, y): (&Equations<'_>, &[f64]),
-        motion: &Motion,
-        extra: &mut [f64],
-    ) -> f64 {
+    fn ask(&self, (eq, y): (&Equations<'_>, &[f64]), motion: &Motion, extra: &mut [f64]) -> f64 {
         let (contact, (memory, law)) = (self.contact, eq.law(self.index));
         let grown = || self.slot.map_or(0.0, |[_, force, _]| y[force]);
         let force = law.force((contact, memory), motion, grown);
         if let Some(places) = self.slot {
             let rates = law.growth_rates((contact, memory), motion, force);
             for (place, rate) in places.into_iter().zip([rates.friction, rates.force, rates.elastic]) {
-                extra[place - 2 * N] = rate;
+                extra[place - 2 * eq.layout.free] = rate;
             }
         }
         force
+    }
+}
+
+impl Form {
+    fn of(law: &Law, has_slot: bool) -> Option<Self> {
+        match law.branch() {
+            Some(branch) => Some(Self::Slip(*branch)),
+            // Otherwise the memory computes the force.
+            None => (law.grows() && has_slot).then_some(Self::Grow),
+        }
     }
 }

@@ -1,76 +1,134 @@
-//! Displacements between bodies as rows of coefficients, and sums of forces along them.
+//! Displacements between bodies, laid out flat: coordinates, coefficients and prescribed motion.
 
-use super::WIDTH;
+use crate::equations::{Reading, Sum};
 use crate::interval::Followed;
 use crate::model::{Measure, Model, Terms};
 use crate::state::State;
 
-/// Coefficients of all free coordinates.
-pub(super) type Row = [f64; WIDTH];
+/// Linear form Σ coefficient · coordinate, which also distributes a force to the coordinates.
+pub(crate) trait Row: Copy {
+    fn of(terms: &Terms) -> Self;
+    /// Returns Σ coefficient · coordinate over the free coordinates.
+    fn dot(&self, x: &[f64]) -> f64;
+    /// Adds a force along the form to the forces on the coordinates.
+    fn pull(&self, forces: &mut [f64], force: f64);
+    /// Calls `add` with sums that contain the constant forces, and writes the forces into `dv`.
+    fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T;
+}
+
+/// Coefficients of all N free coordinates of a model: without indices, and with loops of constant length.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Dense<const N: usize>([f64; N]);
+
+/// Coordinates and coefficients of a form in a model with many coordinates. Unused terms have the coefficient 0.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sparse {
+    first: [End; 2],
+    /// Terms of two bodies that both tilt.
+    others: Option<[End; 2]>,
+}
+
+/// A coordinate and its coefficient.
+#[derive(Debug, Clone, Copy, Default)]
+struct End {
+    at: usize,
+    arm: f64,
+}
+
+impl<const N: usize> Row for Dense<N> {
+    fn of(terms: &Terms) -> Self {
+        let mut row = [0.0; N];
+        terms.iter().for_each(|&(i, a)| row[i] = a);
+        Self(row)
+    }
+
+    #[inline(always)]
+    fn dot(&self, x: &[f64]) -> f64 {
+        let Some(x) = x.first_chunk::<N>() else { return 0.0 };
+        let mut sum = self.0[0] * x[0];
+        for (a, x) in self.0.iter().zip(x).skip(1) {
+            sum += a * x;
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn pull(&self, forces: &mut [f64], force: f64) {
+        let Some(forces) = forces.first_chunk_mut::<N>() else { return };
+        forces.iter_mut().zip(self.0).for_each(|(sum, a)| *sum += a * force);
+    }
+
+    #[inline(always)]
+    fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T {
+        // Few sums stay in registers.
+        let mut forces = [0.0; N];
+        let told = add(Sum::new(model, &mut forces));
+        dv.copy_from_slice(&forces);
+        told
+    }
+}
+
+impl Row for Sparse {
+    fn of(terms: &Terms) -> Self {
+        let end = |k: usize| terms.get(k).map_or_else(End::default, |&(at, arm)| End { at, arm });
+        Self { first: [end(0), end(1)], others: (terms.len() > 2).then(|| [end(2), end(3)]) }
+    }
+
+    #[inline(always)]
+    fn dot(&self, x: &[f64]) -> f64 {
+        let of = |end: End| end.arm * x[end.at];
+        let sum = of(self.first[0]) + of(self.first[1]);
+        match self.others {
+            Some([one, other]) => (sum + of(one)) + of(other),
+            None => sum,
+        }
+    }
+
+    #[inline(always)]
+    fn pull(&self, forces: &mut [f64], force: f64) {
+        let mut add = |end: End| forces[end.at] += end.arm * force;
+        add(self.first[0]);
+        add(self.first[1]);
+        if let Some([one, other]) = self.others {
+            add(one);
+            add(other);
+        }
+    }
+
+    #[inline(always)]
+    fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T {
+        add(Sum::new(model, dv))
+    }
+}
 
 /// Displacement between bodies: Σ coefficient · coordinate + prescribed part.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Length<'a> {
-    pub(super) row: Row,
+pub(crate) struct Length<'a, R> {
+    pub(super) row: R,
     pub(super) followed: Followed<'a>,
 }
 
-/// Displacement between bodies and its rates at one time.
-#[derive(Clone, Copy)]
-pub(super) struct Read {
-    pub(super) value: f64,
-    pub(super) rate: f64,
-    /// Part of the rate from prescribed motions.
-    pub(super) driven: f64,
-}
-
-/// Sums of forces on N free coordinates and of powers.
-pub(super) struct Sums<const N: usize> {
-    pub(super) forces: [f64; N],
-    pub(super) input: f64,
-    pub(super) damping: f64,
-}
-
-/// Returns the coefficient of each free coordinate in a linear form.
-pub(super) fn row(terms: &Terms) -> Row {
-    let mut row = [0.0; WIDTH];
-    for &(i, a) in terms {
-        row[i] = a;
-    }
-    row
-}
-
-/// Returns Σ coefficient · coordinate over the free coordinates.
-#[inline(always)]
-pub(super) fn dot<const N: usize>(row: &Row, x: &[f64; N]) -> f64 {
-    let mut sum = row[0] * x[0];
-    for (a, x) in row.iter().zip(x).skip(1) {
-        sum += a * x;
-    }
-    sum
-}
-
-impl<const N: usize> Sums<N> {
-    /// Adds a force along a displacement with the prescribed rate `driven`; the input power is -force · driven.
-    #[inline(always)]
-    pub(super) fn apply(&mut self, row: &Row, driven: f64, force: f64) {
-        for (sum, a) in self.forces.iter_mut().zip(row) {
-            *sum += a * force;
-        }
-        self.input -= force * driven;
-    }
-}
-
-impl<'a> Length<'a> {
+impl<'a, R: Row> Length<'a, R> {
     pub(super) fn of(measure: &Measure, model: &'a Model, state: &State) -> Option<Self> {
-        Some(Self { row: row(&measure.free), followed: Followed::of(measure, model, state)? })
+        Some(Self { row: R::of(&measure.free), followed: Followed::of(measure, model, state)? })
     }
 
-    /// Returns displacement and rates. Large displacements of two bodies are subtracted first, to avoid rounding.
+    /// Returns displacement and rates; without velocities `v` the rate is that of the prescribed part. Large displacements of two bodies
+    /// are subtracted first, to avoid rounding.
     #[inline(always)]
-    pub(super) fn at<const N: usize>(&self, t: f64, (x, v): (&[f64; N], &[f64; N])) -> Read {
+    pub(super) fn at(&self, t: f64, x: &[f64], v: Option<&[f64]>) -> Reading {
         let followed = self.followed.at(t);
-        let (value, rate) = (dot(&self.row, x) + followed.value, dot(&self.row, v) + followed.rate);
-        Read { value, rate, driven: followed.rate }
+        let own = v.map_or(0.0, |v| self.row.dot(v));
+        Reading {
+            value: self.row.dot(x) + followed.value,
+            rate: own + followed.rate,
+            driven: followed.rate,
+        }
+    }
+
+    /// Returns the second derivative, m/s², from the accelerations of the coordinates.
+    #[inline(always)]
+    pub(super) fn bend(&self, t: f64, a: &[f64]) -> f64 {
+        self.row.dot(a) + self.followed.at(t).acceleration
     }
 }

@@ -177,7 +177,7 @@ fn forces_on_many_coordinates_are_those_of_the_general_equations() {
         }
         let mut interval = Interval::of(&model);
         interval.begin(&model, &state);
-        assert!(n > 4 && interval.kernel.is_whole() && interval.closed.len() == model.contacts.len());
+        assert!(n > 4 && interval.kernel.is_laid_out() && interval.closed.len() == model.contacts.len());
         let plain = Equations::on(&model, &state, model.layout(), false);
         let laid_out = Equations { interval: Some(&interval), ..plain };
         let slopes = |eq: &Equations<'_>| {

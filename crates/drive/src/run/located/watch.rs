@@ -9,11 +9,15 @@ use crate::contact::{Contact, Motion};
 use crate::equations::{Components, Equations};
 use crate::interval::{Closed, Interval};
 use crate::model::{Measure, Model};
+use arrayvec::ArrayVec;
 use stickslip_contact::{Guard, Law, Memory};
 use stickslip_stepper::{End, Span, Step};
 
 /// Smallest remaining length of a memory piece at which a step ends, in rounding errors of the positions of its bodies.
 const LAST_PLACES: f64 = 2.0;
+
+/// Largest number of free coordinates whose accelerations are gathered at once.
+const MOST: usize = 8;
 
 /// Contact at one end of a step.
 #[derive(Debug, Clone, Copy, Default)]
@@ -100,7 +104,7 @@ impl Watch {
             self.to[steady.index].motion = steady.motion(t, |i| y[i], |i| y[n + i]);
         }
         for c in interval.open_form() {
-            self.to[c].motion = eq.motion(&eq.model.contacts[c], t, |i| y[i]);
+            self.to[c].motion = interval.motion(eq, c, (t, y));
         }
     }
 
@@ -137,10 +141,21 @@ fn follow(
         let (motion, pull) = steady.course(t, |i| y[i], |i| y[n + i], |i| slope(n + i));
         contacts[steady.index] = Moving { motion, second: (0.0, pull) };
     }
+    if interval.is_closed() {
+        return;
+    }
+    // Most models have few coordinates.
+    let mut accelerations = ArrayVec::<f64, MOST>::new();
+    if n <= MOST {
+        accelerations.extend((0..n).map(|i| slope(n + i)));
+    }
     for c in interval.open_form() {
-        let contact = &eq.model.contacts[c];
-        let motion = eq.motion(contact, t, |i| y[i]);
-        contacts[c] = Moving { motion, second: second(eq, contact, (t, y), slope) };
+        let motion = interval.motion(eq, c, (t, y));
+        let second = match &interval.levers[c] {
+            Some(lever) if n <= MOST => lever.second(t, &accelerations),
+            _ => second(eq, &eq.model.contacts[c], (t, y), slope),
+        };
+        contacts[c] = Moving { motion, second };
     }
 }
 
