@@ -255,12 +255,12 @@ impl Equations<'_> {
     #[inline(never)]
     fn accelerate(&self, at: &Positions<'_>, out: &mut [f64]) {
         let (dv, input) = out.split_at_mut(self.layout.free);
-        let mut sum = Sum::new(self.model, dv);
+        let mut sum = Sum::new(&self.model.free, dv);
         self.contacts(at, &mut sum, &mut []);
         self.model.links.iter().for_each(|link| self.link(link, at, &mut sum));
         // Contacts compute their friction work from the memory; nothing else dissipates.
         input[0] = sum.input;
-        accelerate(self.model, dv);
+        accelerate(&self.model.free, dv);
     }
 }
 
@@ -303,7 +303,7 @@ impl Equations<'_> {
         dx.copy_from_slice(v);
         // Open contacts leave their slopes at zero.
         extra.fill(0.0);
-        let mut sum = Sum::new(self.model, dv);
+        let mut sum = Sum::new(&self.model.free, dv);
         let at = Components { t, y: |i: usize| y[i] };
         self.contacts(&at, &mut sum, extra);
         self.model.links.iter().for_each(|link| self.link(link, &at, &mut sum));
@@ -315,7 +315,7 @@ impl Equations<'_> {
             self.balance(&at, &mut sum, extra);
         }
         let powers = [sum.input, sum.damping];
-        accelerate(self.model, dv);
+        accelerate(&self.model.free, dv);
         let first = layout.input() - 2 * layout.free;
         [extra[first], extra[first + 1]] = powers;
         for contact in self.model.contacts.iter().filter(|contact| contact.normal_damping > 0.0) {

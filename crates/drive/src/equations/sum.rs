@@ -3,9 +3,8 @@
 //! A [`View`] gives access to time and state components, with or without velocities; code is compiled for each case. A [`Sum`] adds up
 //! forces and powers by means of the Jacobian of the contact displacements.
 
-use crate::Model;
 use crate::interval::Row;
-use crate::model::Terms;
+use crate::model::{Free, Terms};
 
 /// Access to time and state components for an evaluation.
 pub(crate) trait View {
@@ -79,8 +78,8 @@ pub(crate) struct Sum<'a> {
 impl<'a> Sum<'a> {
     /// Creates sums that contain gravity and constant loads; their work counts as potential energy, not as power.
     #[inline(always)]
-    pub(crate) fn new(model: &Model, dv: &'a mut [f64]) -> Self {
-        for (dv, free) in dv.iter_mut().zip(&model.free) {
+    pub(crate) fn new(free: &[Free], dv: &'a mut [f64]) -> Self {
+        for (dv, free) in dv.iter_mut().zip(free) {
             *dv = free.force;
         }
         Self { dv, input: 0.0, damping: 0.0 }
@@ -108,8 +107,8 @@ impl<'a> Sum<'a> {
 
 /// Converts the forces on the free coordinates to accelerations.
 #[inline(always)]
-pub(crate) fn accelerate(model: &Model, dv: &mut [f64]) {
-    for (dv, free) in dv.iter_mut().zip(&model.free) {
+pub(crate) fn accelerate(free: &[Free], dv: &mut [f64]) {
+    for (dv, free) in dv.iter_mut().zip(free) {
         *dv *= free.mobility;
     }
 }

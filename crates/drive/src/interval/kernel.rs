@@ -10,7 +10,7 @@ mod length;
 mod links;
 
 use super::{Closed, emptied};
-use crate::equations::{Components, Equations, Positions, Sum, View, accelerate};
+use crate::equations::{Components, Equations, Positions, Sum, View};
 use crate::model::Model;
 use crate::state::State;
 pub(crate) use contacts::Lever;
@@ -231,12 +231,15 @@ impl<'a, R: Row> Forces<'a, R> {
     // The order of the arguments avoids moves between registers at the call.
     #[inline(never)]
     fn slopes(eq: &Equations<'_>, t: f64, y: &[f64], dy: &mut [f64], forces: &Self) {
-        let n = eq.layout.free;
+        // A constant for few coordinates: all lengths below are then constants, too.
+        let n = R::COUNT.unwrap_or(eq.layout.free);
         let (x, v) = (&y[..n], &y[n..2 * n]);
         let (dx, rest) = dy.split_at_mut(n);
         let (dv, extra) = rest.split_at_mut(n);
         dx.copy_from_slice(v);
-        extra.fill(0.0);
+        if eq.layout.growing > 0 {
+            extra.fill(0.0);
+        }
         let mut powers = R::summed(eq.model, dv, |mut sum| {
             for steady in &forces.steady {
                 steady.act(t, x, &mut sum);
@@ -253,14 +256,15 @@ impl<'a, R: Row> Forces<'a, R> {
             eq.loads(t, v, &mut sum);
             powers = [sum.input, sum.damping];
         }
-        accelerate(eq.model, dv);
+        R::accelerate(eq.model, dv);
         let first = eq.layout.input() - 2 * n;
         [extra[first], extra[first + 1]] = powers;
     }
 
     #[inline(never)]
     fn accelerations(&self, eq: &Equations<'_>, (t, x): (f64, &[f64]), out: &mut [f64]) {
-        let (dv, input) = out.split_at_mut(x.len());
+        let n = R::COUNT.unwrap_or(x.len());
+        let (x, (dv, input)) = (&x[..n], out.split_at_mut(n));
         input[0] = R::summed(eq.model, dv, |mut sum| {
             for steady in &self.steady {
                 steady.act(t, x, &mut sum);
@@ -274,7 +278,7 @@ impl<'a, R: Row> Forces<'a, R> {
             self.act_generally(eq, &at, &mut sum, &mut []);
             input[0] = sum.input;
         }
-        accelerate(eq.model, dv);
+        R::accelerate(eq.model, dv);
     }
 
     #[inline(always)]

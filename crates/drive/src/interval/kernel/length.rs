@@ -1,12 +1,14 @@
 //! Displacements between bodies, laid out flat: coordinates, coefficients and prescribed motion.
 
-use crate::equations::{Reading, Sum};
+use crate::equations::{Reading, Sum, accelerate};
 use crate::interval::Followed;
 use crate::model::{Measure, Model, Terms};
 use crate::state::State;
 
 /// Linear form Σ coefficient · coordinate, which also distributes a force to the coordinates.
 pub(crate) trait Row: Copy {
+    /// Number of free coordinates, if it is a constant.
+    const COUNT: Option<usize> = None;
     fn of(terms: &Terms) -> Self;
     /// Returns Σ coefficient · coordinate over the free coordinates.
     fn dot(&self, x: &[f64]) -> f64;
@@ -14,6 +16,11 @@ pub(crate) trait Row: Copy {
     fn pull(&self, forces: &mut [f64], force: f64);
     /// Calls `add` with sums that contain the constant forces, and writes the forces into `dv`.
     fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T;
+    /// Converts the forces on the coordinates to accelerations.
+    #[inline(always)]
+    fn accelerate(model: &Model, dv: &mut [f64]) {
+        accelerate(&model.free, dv);
+    }
 }
 
 /// Coefficients of all N free coordinates of a model: without indices, and with loops of constant length.
@@ -22,20 +29,23 @@ pub(crate) struct Dense<const N: usize>([f64; N]);
 
 /// Coordinates and coefficients of a form in a model with many coordinates. Unused terms have the coefficient 0.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sparse {
-    first: [End; 2],
-    /// Terms of two bodies that both tilt.
-    others: Option<[End; 2]>,
+pub(crate) enum Sparse {
+    One(End),
+    Two([End; 2]),
+    /// Two bodies of which one tilts, or both.
+    Four([End; 4]),
 }
 
 /// A coordinate and its coefficient.
 #[derive(Debug, Clone, Copy, Default)]
-struct End {
+pub(crate) struct End {
     at: usize,
     arm: f64,
 }
 
 impl<const N: usize> Row for Dense<N> {
+    const COUNT: Option<usize> = Some(N);
+
     fn of(terms: &Terms) -> Self {
         let mut row = [0.0; N];
         terms.iter().for_each(|&(i, a)| row[i] = a);
@@ -60,44 +70,59 @@ impl<const N: usize> Row for Dense<N> {
 
     #[inline(always)]
     fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T {
-        // Few sums stay in registers.
+        // Few sums stay in registers. A second call of `add` would keep it from being inlined.
         let mut forces = [0.0; N];
-        let told = add(Sum::new(model, &mut forces));
-        dv.copy_from_slice(&forces);
+        let told = add(Sum::new(&model.free, &mut forces));
+        if let Some(dv) = dv.first_chunk_mut::<N>() {
+            *dv = forces;
+        }
         told
+    }
+
+    #[inline(always)]
+    fn accelerate(model: &Model, dv: &mut [f64]) {
+        if let (Some(free), Some(dv)) = (model.free.first_chunk::<N>(), dv.first_chunk_mut::<N>()) {
+            accelerate(free, dv);
+        }
     }
 }
 
 impl Row for Sparse {
     fn of(terms: &Terms) -> Self {
         let end = |k: usize| terms.get(k).map_or_else(End::default, |&(at, arm)| End { at, arm });
-        Self { first: [end(0), end(1)], others: (terms.len() > 2).then(|| [end(2), end(3)]) }
+        match terms.len() {
+            0 | 1 => Self::One(end(0)),
+            2 => Self::Two([end(0), end(1)]),
+            _ => Self::Four([end(0), end(1), end(2), end(3)]),
+        }
     }
 
     #[inline(always)]
     fn dot(&self, x: &[f64]) -> f64 {
-        let of = |end: End| end.arm * x[end.at];
-        let sum = of(self.first[0]) + of(self.first[1]);
-        match self.others {
-            Some([one, other]) => (sum + of(one)) + of(other),
-            None => sum,
+        let of = |end: &End| end.arm * x[end.at];
+        match self {
+            Self::One(end) => of(end),
+            Self::Two([one, other]) => of(one) + of(other),
+            Self::Four(ends) => ends.iter().map(of).sum(),
         }
     }
 
     #[inline(always)]
     fn pull(&self, forces: &mut [f64], force: f64) {
-        let mut add = |end: End| forces[end.at] += end.arm * force;
-        add(self.first[0]);
-        add(self.first[1]);
-        if let Some([one, other]) = self.others {
-            add(one);
-            add(other);
+        let mut add = |end: &End| forces[end.at] += end.arm * force;
+        match self {
+            Self::One(end) => add(end),
+            Self::Two([one, other]) => {
+                add(one);
+                add(other);
+            }
+            Self::Four(ends) => ends.iter().for_each(add),
         }
     }
 
     #[inline(always)]
     fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T {
-        add(Sum::new(model, dv))
+        add(Sum::new(&model.free, dv))
     }
 }
 

@@ -16,7 +16,7 @@ use stickslip_stepper::{End, Span, Step};
 /// Smallest remaining length of a memory piece at which a step ends, in rounding errors of the positions of its bodies.
 const LAST_PLACES: f64 = 2.0;
 
-/// Largest number of free coordinates whose accelerations are gathered at once.
+/// Largest number of free coordinates that are gathered once for all contacts.
 const MOST: usize = 8;
 
 /// Contact at one end of a step.
