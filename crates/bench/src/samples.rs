@@ -1,6 +1,6 @@
 //! Samples of the free coordinates at common times.
 
-use stickslip_drive::{Event, Record};
+use stickslip_drive::{Entry, Record, Wants};
 use stickslip_run::Watcher;
 
 /// Number of sample times after the first; the end of the run is an additional one.
@@ -89,22 +89,22 @@ impl<'a> Sampler<'a> {
 }
 
 impl Record for Sampler<'_> {
-    fn row(&mut self, values: &[f64]) {
-        for column in self.columns {
-            self.samples.push(values[*column]);
-        }
-        for (column, largest) in &mut self.largest {
-            *largest = largest.max(values[*column]);
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Row(values) = entry {
+            for column in self.columns {
+                self.samples.push(values[*column]);
+            }
+            for (column, largest) in &mut self.largest {
+                *largest = largest.max(values[*column]);
+            }
         }
     }
 
-    fn event(&mut self, _: &Event, _: &[f64]) {}
+    fn wants(&self) -> Wants {
+        Wants::no_events()
+    }
 
     fn goes_on(&mut self, _: f64) -> bool {
         self.watcher.goes_on()
-    }
-
-    fn wants_events(&self) -> bool {
-        false
     }
 }

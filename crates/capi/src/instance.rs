@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 use stickslip_drive::inputs::Input;
-use stickslip_drive::{Event, EventKind, Record};
+use stickslip_drive::{Entry, EventKind, Record, Wants};
 use stickslip_run::interface::{Role, Variable, variables};
 use stickslip_run::{Job, Simulation, SimulationError};
 use stickslip_scenario::{Parameter, Scenario};
@@ -338,18 +338,18 @@ struct First {
 }
 
 impl Record for First {
-    fn row(&mut self, _: &[f64]) {}
-
-    fn event(&mut self, event: &Event, _: &[f64]) {
-        use EventKind::{BreaksLoose, GrossSlip, GrossSlipEnds, SticksAgain};
-        let slips = matches!(event.kind, BreaksLoose | GrossSlip | GrossSlipEnds | SticksAgain);
-        // An event at which the last step ended may come again within rounding.
-        if self.at.is_none() && slips && event.t > self.after * (1.0 + 4.0 * f64::EPSILON) {
-            self.at = Some(event.t);
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Event(event, _) = entry {
+            use EventKind::{BreaksLoose, GrossSlip, GrossSlipEnds, SticksAgain};
+            let slips = matches!(event.kind, BreaksLoose | GrossSlip | GrossSlipEnds | SticksAgain);
+            // An event at which the last step ended may come again within rounding.
+            if self.at.is_none() && slips && event.t > self.after * (1.0 + 4.0 * f64::EPSILON) {
+                self.at = Some(event.t);
+            }
         }
     }
 
-    fn wants_event_rows(&self) -> bool {
-        false
+    fn wants(&self) -> Wants {
+        Wants::bare_events()
     }
 }

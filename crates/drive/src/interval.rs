@@ -83,7 +83,13 @@ impl<'a> Interval<'a> {
         self.places.clear();
         self.levers.clear();
         let kernel = self.kernel.renewed(model);
-        Self { kernel, scene: SceneTraits::of(model), traits: IntervalTraits::default(), slider: None, ..self }
+        Self {
+            kernel,
+            scene: SceneTraits::of(model),
+            traits: IntervalTraits::default(),
+            slider: None,
+            ..self
+        }
     }
 
     /// Returns the allocated memory of the interval, empty and without a model.

@@ -43,7 +43,7 @@ pub use linearised::{Indentations, LinearInput, Linearised, NormalMode};
 pub use method::{Expected, Method, Tally, Treatment, Why};
 pub use model::{Model, NaturalScale, Pressing, Spared};
 pub use plan::{Accuracy, Limits, Plan, Stepper, UntilSteady};
-pub use record::{Channel, Extent, Record, Trace, state_code, state_name};
+pub use record::{Channel, Due, Entry, EventDetail, Extent, Record, Trace, Wants, state_code, state_name};
 pub use run::{Run, VariantError, Variants, WALK_TOLERANCE, run};
 pub use scene::Scene;
 pub use schedule::{Moments, Schedule};

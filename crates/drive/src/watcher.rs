@@ -1,6 +1,6 @@
 //! Observers of a run.
 
-use crate::{Event, Record};
+use crate::{Entry, Record, Wants};
 
 /// Observer that receives the progress of a run and may stop it, such as a progress bar or a signal handler.
 ///
@@ -28,15 +28,13 @@ impl Watcher for () {
 pub struct Unrecorded<'a>(pub &'a dyn Watcher);
 
 impl Record for Unrecorded<'_> {
-    fn row(&mut self, _: &[f64]) {}
+    fn take(&mut self, _: Entry<'_>) {}
 
-    fn event(&mut self, _: &Event, _: &[f64]) {}
+    fn wants(&self) -> Wants {
+        Wants::no_events()
+    }
 
     fn goes_on(&mut self, _: f64) -> bool {
         self.0.goes_on()
-    }
-
-    fn wants_events(&self) -> bool {
-        false
     }
 }

@@ -4,7 +4,7 @@ use crate::contact::{Frame, Hand};
 use serde_json::{Value, json};
 use std::sync::Arc;
 use stickslip_contact::Memory;
-use stickslip_drive::{Event, Record};
+use stickslip_drive::{Due, Entry, Event, Record, Wants};
 use stickslip_run::theory::{Sheet, Subject};
 use stickslip_run::{Job, Outcome, PartedRun, Simulation, Summary, Table};
 use stickslip_scenario::Scenario;
@@ -42,21 +42,24 @@ struct Look {
 }
 
 impl Record for Look {
-    fn row(&mut self, _: &[f64]) {}
-
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-
-    fn wants_events(&self) -> bool {
-        false
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Look(t, memories) = entry {
+            (self.at, self.memories) = (t, memories.to_vec());
+        }
     }
 
-    fn next_look(&mut self) -> Option<f64> {
-        // The time after this advance is not known yet: at its beginning there is another look.
-        Some(if self.at < self.until { self.until } else { self.until * (1.0 + 1e-9) })
+    fn wants(&self) -> Wants {
+        Wants::no_events()
     }
 
-    fn look(&mut self, t: f64, memories: &[Memory]) {
-        (self.at, self.memories) = (t, memories.to_vec());
+    fn next(&mut self, due: Due) -> Option<f64> {
+        match due {
+            Due::Look => {
+                // The time after this advance is not known yet: at its beginning there is another look.
+                Some(if self.at < self.until { self.until } else { self.until * (1.0 + 1e-9) })
+            }
+            Due::Mark => None,
+        }
     }
 }
 

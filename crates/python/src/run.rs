@@ -9,7 +9,7 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use stickslip_drive::{Channel, Event, Record};
+use stickslip_drive::{Channel, Entry, Event, Record, Wants};
 use stickslip_figures::{Colours, Format, Look, Sources, draw_one};
 use stickslip_quantity::{columns::TRACE, names};
 use stickslip_run::files::InsideTables;
@@ -89,16 +89,12 @@ struct Brief<'a> {
 }
 
 impl Record for Brief<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.table.row(values);
+    fn take(&mut self, entry: Entry<'_>) {
+        self.table.take(entry);
     }
 
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.table.event(event, values);
-    }
-
-    fn wants_event_rows(&self) -> bool {
-        false
+    fn wants(&self) -> Wants {
+        Wants::bare_events()
     }
 
     fn goes_on(&mut self, _: f64) -> bool {

@@ -9,7 +9,7 @@
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
-use stickslip_drive::{Event, Record};
+use stickslip_drive::{Entry, Record};
 use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 
@@ -32,12 +32,12 @@ impl Bare<'_> {
 }
 
 impl Record for Bare<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.keep(values);
-    }
-
-    fn event(&mut self, _: &Event, values: &[f64]) {
-        self.keep(values);
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) => self.keep(values),
+            Entry::Event(_, values) => self.keep(values),
+            _ => {}
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::seal::Seal;
 use crate::table;
 use std::collections::HashMap;
 use std::io;
-use stickslip_drive::{Channel, Event, Model, Record, state_name};
+use stickslip_drive::{Channel, Entry, Event, Model, Record, Wants, state_name};
 
 /// Rows and events of a run in memory. The table is a [`Record`] (receiver of a run's data), or part of a [`Recorder`](crate::Recorder).
 ///
@@ -131,19 +131,25 @@ impl Table {
 }
 
 impl Record for Table {
-    fn row(&mut self, values: &[f64]) {
-        let taken = self.taken.iter().map(|place| values.get(*place).copied().unwrap_or(f64::NAN));
-        self.columns.iter_mut().zip(taken).for_each(|(column, value)| column.push(value));
-    }
-
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.events.push(*event);
-        if let Some(after) = &mut self.after {
-            after.extend(self.taken.iter().map(|place| values.get(*place).copied().unwrap_or(f64::NAN)));
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) => {
+                let taken = self.taken.iter().map(|place| values.get(*place).copied().unwrap_or(f64::NAN));
+                self.columns.iter_mut().zip(taken).for_each(|(column, value)| column.push(value));
+            }
+            Entry::Event(event, values) => {
+                self.events.push(*event);
+                if let Some(after) = &mut self.after {
+                    after.extend(
+                        self.taken.iter().map(|place| values.get(*place).copied().unwrap_or(f64::NAN)),
+                    );
+                }
+            }
+            _ => {}
         }
     }
 
-    fn wants_event_rows(&self) -> bool {
-        self.after.is_some()
+    fn wants(&self) -> Wants {
+        if self.after.is_some() { Wants::default() } else { Wants::bare_events() }
     }
 }

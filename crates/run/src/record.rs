@@ -12,8 +12,8 @@ use crate::kept::Kept;
 use crate::memory::Table;
 use crate::selection::{Selection, TakenEvents};
 use std::io;
-use stickslip_contact::{Memory, Segment};
-use stickslip_drive::{Event, EventKind, Extent, Record, Source};
+use stickslip_contact::Memory;
+use stickslip_drive::{Due, Entry, EventKind, Record, Source, Wants};
 use stickslip_measure::books::Books;
 use stickslip_measure::contact_cycles::{ContactCycles, CycleFigures};
 use stickslip_measure::marks::Marks;
@@ -300,7 +300,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl Record for Recorder<'_> {
+impl Recorder<'_> {
     fn row(&mut self, values: &[f64]) {
         self.recorded.tally.row(values);
         self.recorded.books.read(values);
@@ -309,48 +309,14 @@ impl Record for Recorder<'_> {
             tables.trace.write(&[], values);
         }
         if let Some(table) = &mut self.table {
-            table.row(values);
+            table.take(Entry::Row(values));
         }
         self.recorded.rows += 1;
         self.recorded.kept.row(values);
         self.watcher.reached(values.first().copied().unwrap_or(0.0));
     }
 
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        let is_written = self.event_named(event.source, event.kind.name(), values);
-        if let (true, Some(table)) = (is_written, &mut self.table) {
-            table.event(event, values);
-        }
-    }
-
-    fn next_look(&mut self) -> Option<f64> {
-        self.asked.take().or_else(|| match &mut self.tables {
-            Some(tables) => tables.insides.next_look(),
-            None => self.snapshots.next(),
-        })
-    }
-
-    fn look(&mut self, t: f64, memories: &[Memory]) {
-        match &mut self.tables {
-            Some(tables) => tables.insides.look(memories),
-            None => self.recorded.snapshots.push((t, memories.to_vec())),
-        }
-    }
-
-    fn follows(&self) -> bool {
-        self.tables.as_ref().is_some_and(|tables| tables.insides.follows())
-    }
-
-    fn path(&mut self, c: usize, segment: Segment) {
-        if let Some(tables) = &mut self.tables {
-            tables.insides.path(c, segment);
-        }
-    }
-
-    fn next_mark(&mut self) -> Option<f64> {
-        self.marks.take_next()
-    }
-
+    /// Evaluates a row at a requested time: period ends, moments of figures, pulses.
     fn mark(&mut self, values: &[f64]) {
         if self.has_window {
             // Rows outside of the time window are not written, so samples replace them.
@@ -373,17 +339,50 @@ impl Record for Recorder<'_> {
             table.write(&pulse);
         }
     }
+}
 
-    fn watched(&self) -> [Option<usize>; 2] {
-        [self.marks.body, self.marks.foot]
+impl Record for Recorder<'_> {
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) => self.row(values),
+            Entry::Event(event, values) => {
+                let is_written = self.event_named(event.source, event.kind.name(), values);
+                if let (true, Some(table)) = (is_written, &mut self.table) {
+                    table.take(Entry::Event(event, values));
+                }
+            }
+            Entry::Look(t, memories) => match &mut self.tables {
+                Some(tables) => tables.insides.look(memories),
+                None => self.recorded.snapshots.push((t, memories.to_vec())),
+            },
+            Entry::Path(c, segment) => {
+                if let Some(tables) = &mut self.tables {
+                    tables.insides.path(c, segment);
+                }
+            }
+            Entry::Mark(values) => self.mark(values),
+            Entry::Extents(extents) => self.recorded.tally.extents(extents),
+            _ => {}
+        }
     }
 
-    fn rows_within(&self) -> [f64; 2] {
-        self.selection.window()
+    fn wants(&self) -> Wants {
+        Wants {
+            paths: self.tables.as_ref().is_some_and(|tables| tables.insides.follows()),
+            watched: [self.marks.body, self.marks.foot],
+            rows_within: self.selection.window(),
+            ..Wants::default()
+        }
     }
 
-    fn extents(&mut self, extents: [Extent; 2]) {
-        self.recorded.tally.extents(extents);
+    fn next(&mut self, due: Due) -> Option<f64> {
+        match due {
+            Due::Look => self.asked.take().or_else(|| match &mut self.tables {
+                Some(tables) => tables.insides.next_look(),
+                None => self.snapshots.next(),
+            }),
+            Due::Mark => self.marks.take_next(),
+        }
     }
 
     fn goes_on(&mut self, t: f64) -> bool {

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a benchmark prints, and fails by panicking")]
 
-use stickslip_drive::{Channel, Event, Model, Record, run};
+use stickslip_drive::{Channel, Entry, Model, Record, Wants, run};
 use stickslip_scenario::Scenario;
 
 const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/p1.json");
@@ -26,21 +26,23 @@ struct Watcher {
 }
 
 impl Record for Watcher {
-    fn row(&mut self, values: &[f64]) {
-        let [x, input, error] = self.columns.map(|column| values[column]);
-        let step = x - self.last;
-        if self.period > SETTLED {
-            (self.least, self.most) = (self.least.min(step), self.most.max(step));
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Row(values) = entry {
+            let [x, input, error] = self.columns.map(|column| values[column]);
+            let step = x - self.last;
+            if self.period > SETTLED {
+                (self.least, self.most) = (self.least.min(step), self.most.max(step));
+            }
+            (self.last, self.books) = (x, [input, error]);
+            if self.period % self.every == self.every / 2 {
+                self.resident.push(resident());
+            }
+            self.period += 1;
         }
-        (self.last, self.books) = (x, [input, error]);
-        if self.period % self.every == self.every / 2 {
-            self.resident.push(resident());
-        }
-        self.period += 1;
     }
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
-        false
+
+    fn wants(&self) -> Wants {
+        Wants::no_events()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Results of a variant: the few numbers that a sweep keeps of each run.
 
-use stickslip_drive::{Event, Model, Plan, Record, Scene};
+use stickslip_drive::{Due, Entry, Model, Plan, Record, Scene, Wants};
 use stickslip_run::Watcher;
 use thiserror::Error;
 
@@ -123,7 +123,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Evaluates results whose time span starts or ends at time t, s.
-    fn take(&mut self, t: f64, row: &[f64]) {
+    fn read(&mut self, t: f64, row: &[f64]) {
         let is_now = |moment: f64| (t - moment).abs() <= SAME * t;
         let is_last = !self.is_first && self.is_end(t);
         for ((figure, span), value) in self.figures.iter().zip(&self.spans).zip(&mut self.values) {
@@ -153,25 +153,30 @@ fn last_period(scene: &Scene, waveform: usize, end: f64) -> [f64; 2] {
 }
 
 impl Record for Reading<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.take(values.first().copied().unwrap_or(0.0), values);
-        self.is_first = false;
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) => {
+                self.read(values.first().copied().unwrap_or(0.0), values);
+                self.is_first = false;
+            }
+            Entry::Mark(values) => self.read(values.first().copied().unwrap_or(0.0), values),
+            _ => {}
+        }
     }
 
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-
-    fn wants_events(&self) -> bool {
-        false
+    fn wants(&self) -> Wants {
+        Wants::no_events()
     }
 
-    fn next_mark(&mut self) -> Option<f64> {
-        let next = self.moments.get(self.next).copied();
-        self.next += 1;
-        next
-    }
-
-    fn mark(&mut self, values: &[f64]) {
-        self.take(values.first().copied().unwrap_or(0.0), values);
+    fn next(&mut self, due: Due) -> Option<f64> {
+        match due {
+            Due::Look => None,
+            Due::Mark => {
+                let next = self.moments.get(self.next).copied();
+                self.next += 1;
+                next
+            }
+        }
     }
 
     fn goes_on(&mut self, _: f64) -> bool {

@@ -1,6 +1,6 @@
 //! Record of a run that can be cancelled.
 
-use stickslip_drive::{Event, Record, State};
+use stickslip_drive::{Due, Entry, Record, Wants};
 
 /// Forwards all calls to `record`, except for `goes_on`, which may cancel the run.
 pub(crate) struct Interruptible<'a> {
@@ -9,24 +9,18 @@ pub(crate) struct Interruptible<'a> {
 }
 
 impl Record for Interruptible<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.record.row(values);
+    fn take(&mut self, entry: Entry<'_>) {
+        self.record.take(entry);
     }
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.record.event(event, values);
+
+    fn wants(&self) -> Wants {
+        self.record.wants()
     }
-    fn wants_events(&self) -> bool {
-        self.record.wants_events()
+
+    fn next(&mut self, due: Due) -> Option<f64> {
+        self.record.next(due)
     }
-    fn wants_event_rows(&self) -> bool {
-        self.record.wants_event_rows()
-    }
-    fn leaves(&mut self, state: &State) {
-        self.record.leaves(state);
-    }
-    fn enters(&mut self, state: &State) {
-        self.record.enters(state);
-    }
+
     fn goes_on(&mut self, _: f64) -> bool {
         (self.goes_on)()
     }

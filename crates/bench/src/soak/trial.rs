@@ -3,7 +3,7 @@
 use std::time::Instant;
 use stickslip_drive::scene::{Axis, Freedom, Side};
 use stickslip_drive::{
-    Channel, Counts, Limits, Model, Plan, Record, RunError, Scene, SceneError, State, Stepper,
+    Channel, Counts, Entry, Limits, Model, Plan, Record, RunError, Scene, SceneError, State, Stepper, Wants,
 };
 
 /// Wall time after which a run counts as hung, s.
@@ -241,26 +241,26 @@ struct Looked<'a> {
 }
 
 impl Record for Looked<'_> {
-    fn row(&mut self, values: &[f64]) {
-        if values.len() < self.trial.width {
-            return;
-        }
-        self.rows.extend(self.trial.looks.iter().map(|(place, unit)| values[*place] / unit));
-        let [input, kinetic, elastic, friction, damping, error] =
-            self.trial.energies.map(|place| values[place]);
-        let before = *self.before.get_or_insert(elastic);
-        let flows = [input.abs(), kinetic, (elastic - before).abs(), friction + damping];
-        self.throughput = flows.into_iter().fold(self.throughput, f64::max);
-        // Rounding errors of the elastic energy do not count, because for a body at rest all other energies are 0.
-        let rounding = 4.0 * f64::EPSILON * elastic.abs();
-        if error.is_nan() || error.abs() > self.worst.max(rounding) {
-            self.worst = error.abs();
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Row(values) = entry {
+            if values.len() < self.trial.width {
+                return;
+            }
+            self.rows.extend(self.trial.looks.iter().map(|(place, unit)| values[*place] / unit));
+            let [input, kinetic, elastic, friction, damping, error] =
+                self.trial.energies.map(|place| values[place]);
+            let before = *self.before.get_or_insert(elastic);
+            let flows = [input.abs(), kinetic, (elastic - before).abs(), friction + damping];
+            self.throughput = flows.into_iter().fold(self.throughput, f64::max);
+            // Rounding errors of the elastic energy do not count, because for a body at rest all other energies are 0.
+            let rounding = 4.0 * f64::EPSILON * elastic.abs();
+            if error.is_nan() || error.abs() > self.worst.max(rounding) {
+                self.worst = error.abs();
+            }
         }
     }
 
-    fn event(&mut self, _: &stickslip_drive::Event, _: &[f64]) {}
-
-    fn wants_events(&self) -> bool {
-        false
+    fn wants(&self) -> Wants {
+        Wants::no_events()
     }
 }

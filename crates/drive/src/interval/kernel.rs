@@ -162,16 +162,8 @@ impl<'a, R: Row> Forces<'a, R> {
     fn of(model: &Model) -> Self {
         let (steady, moving, springs, ties) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let (others, links) = (Vec::new(), Vec::new());
-        let mut forces = Self {
-            is_laid_out: false,
-            steady,
-            moving,
-            springs,
-            ties,
-            is_general: false,
-            others,
-            links,
-        };
+        let mut forces =
+            Self { is_laid_out: false, steady, moving, springs, ties, is_general: false, others, links };
         forces.reserve(model);
         forces
     }

@@ -1,6 +1,6 @@
 //! Output in memory.
 
-use super::Record;
+use super::{Entry, Record};
 use crate::Model;
 use crate::event::Event;
 
@@ -36,12 +36,14 @@ impl Trace {
 }
 
 impl Record for Trace {
-    fn row(&mut self, values: &[f64]) {
-        self.values.extend_from_slice(values);
-    }
-
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.events.push(*event);
-        self.after.extend_from_slice(values);
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) => self.values.extend_from_slice(values),
+            Entry::Event(event, values) => {
+                self.events.push(*event);
+                self.after.extend_from_slice(values);
+            }
+            _ => {}
+        }
     }
 }

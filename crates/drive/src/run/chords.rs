@@ -21,7 +21,7 @@ use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::Model;
-use crate::record::Record;
+use crate::record::{Record, wants_events};
 use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
 use branches::{Branches, GROWING_KNOTS, KNOTS};
@@ -230,7 +230,7 @@ impl<'a> Chords<'a> {
         (t, y): (f64, &[f64]),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        let was_watched = std::mem::replace(&mut self.watched, record.wants_events());
+        let was_watched = std::mem::replace(&mut self.watched, wants_events(record));
         if self.watched && !was_watched && state.counts.steps > 0 {
             // A record that begins to request events gets events from now on, not earlier changes.
             for (c, memory) in state.memories.iter().enumerate() {

@@ -5,7 +5,7 @@ use super::horizon::Goal;
 use super::located::LocatedRun;
 use super::output::Opening;
 use crate::method::{self, Method, SceneTraits};
-use crate::record::Record;
+use crate::record::{Entry, Record, Wants};
 use crate::waveform::Command;
 use crate::{CommandError, InputError, Model, Plan, RunError, State, Stepper};
 use stickslip_stepper::{Nystrom4, Rk4, Verlet};
@@ -126,15 +126,15 @@ impl Way<'_> {
 struct First<'r>(&'r mut Vec<f64>);
 
 impl Record for First<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.0.clear();
-        self.0.extend_from_slice(values);
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Row(values) = entry {
+            self.0.clear();
+            self.0.extend_from_slice(values);
+        }
     }
 
-    fn event(&mut self, _: &crate::Event, _: &[f64]) {}
-
-    fn wants_events(&self) -> bool {
-        false
+    fn wants(&self) -> Wants {
+        Wants::no_events()
     }
 }
 

@@ -10,7 +10,7 @@ use crate::component::{Passage, Refused};
 use crate::equations::{Components, Equations};
 use crate::event::EventKind;
 use crate::model::{Model, Wired};
-use crate::record::Record;
+use crate::record::{Entry, Record};
 use crate::state::{Booked, Books, Layout, State};
 use stickslip_contact::{Memory, Segment};
 
@@ -66,7 +66,7 @@ impl Ledger {
 
     /// Begins to store committed paths if the record requests paths.
     pub(super) fn begin_telling(&mut self, record: &dyn Record) {
-        self.told = record.follows().then(Vec::new);
+        self.told = record.wants().paths.then(Vec::new);
     }
 
     /// Whether the record requests the committed paths.
@@ -88,7 +88,7 @@ impl Ledger {
     #[inline]
     pub(super) fn tell(&mut self, record: &mut dyn Record) {
         if let Some(told) = &mut self.told {
-            told.drain(..).for_each(|(c, path)| record.path(c, path));
+            told.drain(..).for_each(|(c, path)| record.take(Entry::Path(c, path)));
         }
     }
 

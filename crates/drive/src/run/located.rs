@@ -48,7 +48,7 @@ use crate::equations::Equations;
 use crate::interval::{Interval, Swing};
 use crate::method::Method;
 use crate::model::Model;
-use crate::record::Record;
+use crate::record::{Entry, Record};
 use crate::state::{Books, Detour, Gait, Layout, LocatedWay, State, Underway, Whereabouts};
 use crate::{Plan, RunError};
 pub(super) use method::{LocatedRun, Workspace};
@@ -192,7 +192,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.ledger.begin_telling(record);
         let eq = self.setting.plain(state);
         self.output.begin_looks(&eq, (self.setting.model, state), opening, record);
-        record.enters(state);
+        record.take(Entry::Enters(state));
     }
 
     /// Resets all data of the workspace that depend on an earlier state.
@@ -306,7 +306,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         is_corner: bool,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        record.leaves(state);
+        record.take(Entry::Leaves(state));
         if is_corner {
             self.bounds.corner();
             self.output.turns.near_corner(&self.setting.plain(state), state.t, &state.y);
@@ -326,7 +326,7 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         if is_corner || moves || !self.renew_interval(state) {
             self.begin_interval(state);
         }
-        record.enters(state);
+        record.take(Entry::Enters(state));
         self.go_on_from(state);
         Ok(())
     }

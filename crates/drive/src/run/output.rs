@@ -9,7 +9,7 @@ mod turns;
 
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
-use crate::record::{self, Record};
+use crate::record::{self, Due, Entry, EventDetail, Record};
 use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
@@ -57,7 +57,7 @@ impl Output {
     /// Starts the rows after time `from`, s, within the time window of the record.
     pub(super) fn set_out(&mut self, from: f64, record: &dyn Record) {
         let row = std::mem::take(&mut self.grid.row);
-        self.grid = Grid { row, ..Grid::new(self.every, from, record.rows_within()) };
+        self.grid = Grid { row, ..Grid::new(self.every, from, record.wants().rows_within) };
     }
 
     /// Requests the first snapshot and the first sample row, and writes those that are due now.
@@ -69,7 +69,8 @@ impl Output {
         record: &mut dyn Record,
     ) {
         self.looks = Looks::begin(at, opening, record);
-        self.turns.begin(at.0, record.watched()[0].filter(|_| record.wants_events()));
+        self.turns
+            .begin(at.0, record.wants().watched[0].filter(|_| record.wants().events != EventDetail::None));
         // The record may change during a run.
         self.rows.begin(at.0);
         self.marks.begin(equations, at, opening == Opening::Resumed, record);
@@ -106,7 +107,7 @@ impl Output {
         record: &mut dyn Record,
     ) {
         record::fill(equations, state, state.t, &|i| state.y[i], &mut self.row);
-        record.event(event, &self.row);
+        record.take(Entry::Event(event, &self.row));
     }
 
     /// Reports the turning points of u in the current step up to time `until`, s. `y` returns a component at a given time.
@@ -120,7 +121,8 @@ impl Output {
     ) {
         while let Some((t, c)) = self.turns.take(until) {
             record::fill(equations, state, t, &|i| y(i, t), &mut self.row);
-            record.event(&Event { t, source: Source::Contact(c), kind: EventKind::Turn }, &self.row);
+            let event = Event { t, source: Source::Contact(c), kind: EventKind::Turn };
+            record.take(Entry::Event(&event, &self.row));
         }
     }
 }
@@ -207,7 +209,7 @@ impl Grid {
         record: &mut dyn Record,
     ) {
         record::fill(equations, state, t, y, &mut self.row);
-        record.row(&self.row);
+        record.take(Entry::Row(&self.row));
         self.pass(t);
     }
 
@@ -222,7 +224,7 @@ impl Grid {
     /// Writes a row outside the grid: the first or the last row of a run.
     pub(super) fn write_now(&mut self, equations: &Equations<'_>, state: &State, record: &mut dyn Record) {
         record::fill(equations, state, state.t, &|i| state.y[i], &mut self.row);
-        record.row(&self.row);
+        record.take(Entry::Row(&self.row));
     }
 }
 
@@ -246,7 +248,7 @@ impl Looks {
         }
         if looks.due == state.t {
             let contacts = model.contacts().count();
-            record.look(state.t, &state.shifted_back(model)[..contacts]);
+            record.take(Entry::Look(state.t, &state.shifted_back(model)[..contacts]));
             looks.ask(record);
         }
         looks
@@ -264,14 +266,14 @@ impl Looks {
     pub(super) fn show(&mut self, model: &Model, memories: Option<&[Memory]>, record: &mut dyn Record) {
         if let Some(memories) = memories {
             // Stops have no slip memory to look at.
-            record.look(self.due, &memories[..model.contacts().count()]);
+            record.take(Entry::Look(self.due, &memories[..model.contacts().count()]));
         }
         self.ask(record);
     }
 
     /// Requests the next snapshot. A requested time that is not later than the last one ends the snapshots.
     fn ask(&mut self, record: &mut dyn Record) {
-        let next = record.next_look().unwrap_or(f64::INFINITY);
+        let next = record.next(Due::Look).unwrap_or(f64::INFINITY);
         self.due = if next > self.due { next } else { f64::INFINITY };
     }
 }

@@ -12,7 +12,7 @@ use stickslip_drive::scene::{
     Spring, Varying,
 };
 use stickslip_drive::{
-    Event, Field, Limits, Model, Moments, Part, Plan, Record, RunError, SceneError, SceneFault, Shape, State,
+    Entry, Field, Limits, Model, Moments, Part, Plan, Record, RunError, SceneError, SceneFault, Shape, State,
     Stepper, Timing, Trace, Waveform, run,
 };
 
@@ -194,8 +194,8 @@ fn limits_stop_a_run_with_a_typed_error_and_keep_what_was_computed() {
 struct Enough;
 
 impl Record for Enough {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
+    fn take(&mut self, _: Entry<'_>) {}
+
     fn goes_on(&mut self, t: f64) -> bool {
         t < 5.0 * PERIOD
     }

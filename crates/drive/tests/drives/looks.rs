@@ -5,7 +5,7 @@ use crate::parts::{Looker, channel, contact, event, follower, look, named, p1, p
 use std::f64::consts::PI;
 use stickslip_contact::{Memory, Profile, SpringState, Springs};
 use stickslip_drive::scene::{Normal, Scene, Side, Varying};
-use stickslip_drive::{Event, Model, Moments, Plan, Record, Shape, Stepper, run};
+use stickslip_drive::{Due, Entry, Model, Moments, Plan, Record, Shape, Stepper, run};
 
 const PERIOD: f64 = 1e-3;
 
@@ -172,13 +172,17 @@ fn a_row_that_is_outgrown_stops_the_run_and_not_the_look() {
 struct Restless(Vec<f64>, Vec<f64>);
 
 impl Record for Restless {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn next_look(&mut self) -> Option<f64> {
-        self.0.pop()
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Look(t, _) = entry {
+            self.1.push(t);
+        }
     }
-    fn look(&mut self, t: f64, _: &[Memory]) {
-        self.1.push(t);
+
+    fn next(&mut self, due: Due) -> Option<f64> {
+        match due {
+            Due::Look => self.0.pop(),
+            Due::Mark => None,
+        }
     }
 }
 

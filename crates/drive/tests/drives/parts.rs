@@ -6,8 +6,8 @@ use stickslip_drive::scene::{
     NormalDamping, Point, Scene, Side, Spring, Varying,
 };
 use stickslip_drive::{
-    Event, Limits, Model, Moments, Plan, Record, RunError, Schedule, Shape, State, Stepper, Timing, Trace,
-    Waveform, run,
+    Due, Entry, Limits, Model, Moments, Plan, Record, RunError, Schedule, Shape, State, Stepper, Timing,
+    Trace, Wants, Waveform, run,
 };
 
 pub(crate) fn named<T>(name: &str, part: T) -> Named<T> {
@@ -136,20 +136,27 @@ impl Looker {
 }
 
 impl Record for Looker {
-    fn row(&mut self, values: &[f64]) {
-        self.rows.push(values.to_vec());
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) => self.rows.push(values.to_vec()),
+            Entry::Look(t, memories) => self.seen.push((t, memories.to_vec())),
+            _ => {}
+        }
     }
-    fn event(&mut self, _: &Event, _: &[f64]) {}
-    fn wants_events(&self) -> bool {
-        false
+
+    fn wants(&self) -> Wants {
+        Wants::no_events()
     }
-    fn next_look(&mut self) -> Option<f64> {
-        let due = self.schedule.due();
-        self.schedule.advance();
-        Some(due)
-    }
-    fn look(&mut self, t: f64, memories: &[Memory]) {
-        self.seen.push((t, memories.to_vec()));
+
+    fn next(&mut self, due: Due) -> Option<f64> {
+        match due {
+            Due::Look => {
+                let due = self.schedule.due();
+                self.schedule.advance();
+                Some(due)
+            }
+            Due::Mark => None,
+        }
     }
 }
 

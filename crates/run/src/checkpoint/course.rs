@@ -5,8 +5,7 @@ use crate::job::Job;
 use crate::outcome::{Ended, Outcome};
 use crate::record::{Draft, Recorder};
 use std::io;
-use stickslip_contact::{Memory, Segment};
-use stickslip_drive::{Event, Extent, Record, Run, RunError};
+use stickslip_drive::{Due, Entry, Record, Run, RunError, Wants};
 
 impl Job {
     /// Runs the job and writes checkpoints. The recorder is new, or has received the journal of the interrupted run.
@@ -71,54 +70,17 @@ impl Journalled<'_> {
 }
 
 impl Record for Journalled<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.keeper.journal.row(values);
-        self.recorder.row(values);
+    fn take(&mut self, entry: Entry<'_>) {
+        self.keeper.journal.take(entry);
+        self.recorder.take(entry);
     }
 
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.keeper.journal.event(event, values);
-        self.recorder.event(event, values);
+    fn wants(&self) -> Wants {
+        self.recorder.wants()
     }
 
-    fn next_look(&mut self) -> Option<f64> {
-        self.recorder.next_look()
-    }
-
-    fn look(&mut self, t: f64, memories: &[Memory]) {
-        self.keeper.journal.look(t, memories);
-        self.recorder.look(t, memories);
-    }
-
-    fn follows(&self) -> bool {
-        self.recorder.follows()
-    }
-
-    fn path(&mut self, c: usize, segment: Segment) {
-        self.keeper.journal.path(c, segment);
-        self.recorder.path(c, segment);
-    }
-
-    fn next_mark(&mut self) -> Option<f64> {
-        self.recorder.next_mark()
-    }
-
-    fn mark(&mut self, values: &[f64]) {
-        self.keeper.journal.mark_row(values);
-        self.recorder.mark(values);
-    }
-
-    fn watched(&self) -> [Option<usize>; 2] {
-        self.recorder.watched()
-    }
-
-    fn extents(&mut self, extents: [Extent; 2]) {
-        self.keeper.journal.extents(extents);
-        self.recorder.extents(extents);
-    }
-
-    fn rows_within(&self) -> [f64; 2] {
-        self.recorder.rows_within()
+    fn next(&mut self, due: Due) -> Option<f64> {
+        self.recorder.next(due)
     }
 
     fn goes_on(&mut self, t: f64) -> bool {

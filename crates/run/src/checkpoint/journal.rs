@@ -17,7 +17,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
 use stickslip_contact::{Memory, Segment};
-use stickslip_drive::{Event, Extent, Source};
+use stickslip_drive::{Entry, Event, Extent, Source};
 
 /// Tags of the records.
 pub(super) mod tag {
@@ -89,13 +89,26 @@ impl Journal {
         Ok(Mark { length: *length, digest: digest.clone().finalize().into() })
     }
 
-    pub(super) fn row(&mut self, values: &[f64]) {
+    /// Appends an entry.
+    pub(super) fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) => self.row(values),
+            Entry::Event(event, values) => self.event(event, values),
+            Entry::Look(t, memories) => self.look(t, memories),
+            Entry::Mark(values) => self.mark_row(values),
+            Entry::Path(c, segment) => self.path(c, segment),
+            Entry::Extents(extents) => self.extents(extents),
+            Entry::Leaves(_) | Entry::Enters(_) => {}
+        }
+    }
+
+    fn row(&mut self, values: &[f64]) {
         self.bytes.push(tag::ROW);
         self.reals(values);
         self.put();
     }
 
-    pub(super) fn event(&mut self, event: &Event, values: &[f64]) {
+    fn event(&mut self, event: &Event, values: &[f64]) {
         let (kind, place) = match event.source {
             Source::Contact(place) => (0, place),
             Source::Waveform(place) => (1, place),
@@ -113,7 +126,7 @@ impl Journal {
         self.put();
     }
 
-    pub(super) fn look(&mut self, t: f64, memories: &[Memory]) {
+    fn look(&mut self, t: f64, memories: &[Memory]) {
         self.words.clear();
         memories.iter().for_each(|memory| memory.write(&mut self.words));
         self.bytes.push(tag::LOOK);
@@ -123,13 +136,13 @@ impl Journal {
         self.put();
     }
 
-    pub(super) fn mark_row(&mut self, values: &[f64]) {
+    fn mark_row(&mut self, values: &[f64]) {
         self.bytes.push(tag::MARK);
         self.reals(values);
         self.put();
     }
 
-    pub(super) fn extents(&mut self, extents: [Extent; 2]) {
+    fn extents(&mut self, extents: [Extent; 2]) {
         self.bytes.push(tag::EXTENTS);
         for Extent { least, most, fall, rise } in extents {
             self.reals(&[least[0], least[1], most[0], most[1], fall, rise]);
@@ -137,7 +150,7 @@ impl Journal {
         self.put();
     }
 
-    pub(super) fn path(&mut self, c: usize, segment: Segment) {
+    fn path(&mut self, c: usize, segment: Segment) {
         let (kind, [force, energy]) = match segment {
             Segment::Straight(_) => (0, [0.0; 2]),
             Segment::Jump(_) => (1, [0.0; 2]),

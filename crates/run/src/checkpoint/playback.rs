@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::Path;
 use stickslip_contact::{Apex, Engine, Interface, Memory, Segment, Words};
-use stickslip_drive::{Extent, Record, Source};
+use stickslip_drive::{Due, Entry, Extent, Record, Source};
 
 /// Size of the read buffer, in bytes.
 const CHUNK: usize = 1 << 16;
@@ -99,7 +99,7 @@ struct Looks {
 
 impl Looks {
     fn ask(&mut self, recorder: &mut Recorder<'_>) {
-        self.due = recorder.next_look().unwrap_or(f64::INFINITY);
+        self.due = recorder.next(Due::Look).unwrap_or(f64::INFINITY);
     }
 
     /// Skips the snapshots before time t.
@@ -148,17 +148,17 @@ impl Playback<'_, '_> {
         match self.array()? {
             [tag::ROW] => {
                 self.read_values()?;
-                self.recorder.row(&self.values);
+                self.recorder.take(Entry::Row(&self.values));
                 Ok(Some(()))
             }
             [tag::MARK] => {
                 self.read_values()?;
-                self.recorder.mark(&self.values);
+                self.recorder.take(Entry::Mark(&self.values));
                 Ok(Some(()))
             }
             [tag::EXTENTS] => {
                 let extents = [self.extent()?, self.extent()?];
-                self.recorder.extents(extents);
+                self.recorder.take(Entry::Extents(extents));
                 Ok(Some(()))
             }
             [tag::PATH] => self.path(),
@@ -200,7 +200,7 @@ impl Playback<'_, '_> {
             2 | 3 => Segment::Grown { to, force, energy, joins: kind == 3 },
             _ => return Ok(None),
         };
-        self.recorder.path(c, segment);
+        self.recorder.take(Entry::Path(c, segment));
         Ok(Some(()))
     }
 
@@ -220,7 +220,7 @@ impl Playback<'_, '_> {
         let Some(memories) = memories.filter(|_| words.is_empty()) else { return Ok(None) };
         self.looks.pass(t, self.recorder);
         if self.looks.due == t {
-            self.recorder.look(t, &memories);
+            self.recorder.take(Entry::Look(t, &memories));
             self.looks.ask(self.recorder);
         }
         Ok(Some(()))

@@ -9,8 +9,7 @@ use crate::kept::Kept;
 use crate::record::Recorder;
 use std::fs;
 use std::path::Path;
-use stickslip_contact::Memory;
-use stickslip_drive::{Event, Record};
+use stickslip_drive::{Due, Entry, Record};
 use stickslip_scenario::PlotName;
 
 /// A recorder that also writes a journal.
@@ -23,27 +22,22 @@ struct Both<'a> {
 }
 
 impl Record for Both<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.journal.row(values);
-        self.recorder.row(values);
-        self.rows += 1;
-        if self.rows == self.marked.0 {
-            self.marked.1 = Some(self.journal.mark().unwrap());
+    fn take(&mut self, entry: Entry<'_>) {
+        self.journal.take(entry);
+        self.recorder.take(entry);
+        if let Entry::Row(_) = entry {
+            self.rows += 1;
+            if self.rows == self.marked.0 {
+                self.marked.1 = Some(self.journal.mark().unwrap());
+            }
         }
     }
 
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.journal.event(event, values);
-        self.recorder.event(event, values);
-    }
-
-    fn next_look(&mut self) -> Option<f64> {
-        self.recorder.next_look()
-    }
-
-    fn look(&mut self, t: f64, memories: &[Memory]) {
-        self.journal.look(t, memories);
-        self.recorder.look(t, memories);
+    fn next(&mut self, due: Due) -> Option<f64> {
+        match due {
+            Due::Look => self.recorder.next(due),
+            Due::Mark => None,
+        }
     }
 }
 
@@ -127,12 +121,12 @@ fn a_journal_counts_up_to_its_mark_and_goes_on_from_there() {
     let mut again = recorder(&job, &folder);
     let reached = 999.0 * job.scenario.plan.every.unwrap();
     playback::tell(&path, all(mark, reached), &job, &mut again).unwrap();
-    assert_eq!(again.next_look(), Some(0.4e-3 * (reached / 0.4e-3).ceil()));
+    assert_eq!(again.next(Due::Look), Some(0.4e-3 * (reached / 0.4e-3).ceil()));
     assert_eq!(left(again).2, 1000);
     // The rest is truncated. Later records continue the digest.
     let mut journal = Journal::go_on(&path, mark.length, digest).unwrap();
     assert_eq!(journal.mark().unwrap(), mark);
-    journal.row(&[1.0, 2.0]);
+    journal.take(Entry::Row(&[1.0, 2.0]));
     let longer = journal.mark().unwrap();
     assert_eq!(longer.length, mark.length + 17);
     playback::check(&path, &longer).unwrap();

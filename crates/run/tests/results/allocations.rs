@@ -5,7 +5,7 @@
 
 use crate::shared::{Stage, frames, rk4, verlet};
 use stickslip_contact::Memory;
-use stickslip_drive::{Event, Plan, Record, Run, State, Stepper, UntilSteady};
+use stickslip_drive::{Entry, Plan, Record, Run, State, Stepper, UntilSteady};
 
 /// Drives with the periods of their waveforms, s.
 const DRIVES: [(&str, f64); 4] = [
@@ -49,12 +49,12 @@ struct Written {
 }
 
 impl Record for Written {
-    fn row(&mut self, _: &[f64]) {
-        self.rows += 1;
-    }
-
-    fn event(&mut self, _: &Event, _: &[f64]) {
-        self.events += 1;
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(_) => self.rows += 1,
+            Entry::Event(..) => self.events += 1,
+            _ => {}
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Results of fretting loops, compared with closed forms and with denser rows.
 
 use std::path::Path;
+use stickslip_drive::Entry;
 use stickslip_measure::Cycle;
 use stickslip_measure::contact_cycles::CycleFigures;
 use stickslip_run::{Job, Summary};
@@ -242,13 +243,12 @@ fn the_books_of_a_row_of_springs_close() {
 fn last_period(job: &Job, name: &str) -> Vec<f64> {
     struct Column(usize, Vec<f64>);
     impl stickslip_drive::Record for Column {
-        fn row(&mut self, values: &[f64]) {
-            if values[0] >= 2.0 {
+        fn take(&mut self, entry: Entry<'_>) {
+            if let Entry::Row(values) | Entry::Event(_, values) = entry
+                && values[0] >= 2.0
+            {
                 self.1.push(values[self.0]);
             }
-        }
-        fn event(&mut self, _: &stickslip_drive::Event, values: &[f64]) {
-            self.row(values);
         }
     }
     let place = job.model.channels().iter().position(|channel| channel.name == name).unwrap();
@@ -266,10 +266,11 @@ fn friction_work_of_a_cycle_is_the_difference_of_the_runs_own() {
     let place = |name: &str| channels.iter().position(|channel| channel.name == name).unwrap();
     struct Rows(Vec<Vec<f64>>);
     impl stickslip_drive::Record for Rows {
-        fn row(&mut self, values: &[f64]) {
-            self.0.push(values.to_vec());
+        fn take(&mut self, entry: Entry<'_>) {
+            if let Entry::Row(values) = entry {
+                self.0.push(values.to_vec());
+            }
         }
-        fn event(&mut self, _: &stickslip_drive::Event, _: &[f64]) {}
     }
     let mut rows = Rows(Vec::new());
     stickslip_drive::run(&job.model, &job.scenario.plan, &mut job.start.clone(), &mut rows).unwrap();

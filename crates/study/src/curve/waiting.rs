@@ -15,7 +15,7 @@
 
 use super::motion::{Course, Motion, Motionless, STILL, natural, waveform};
 use crate::grip::{Grip, Loose};
-use stickslip_drive::{Event, Plan, Record, Run, RunError};
+use stickslip_drive::{Entry, Plan, Record, Run, RunError, Wants};
 use stickslip_measure::{Bounds, Mean, Moved, Settling};
 use stickslip_run::summary::step_bounds;
 use stickslip_run::{Job, Watcher};
@@ -307,13 +307,16 @@ struct Looker<'a> {
 }
 
 impl Record for Looker<'_> {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, event: &Event, _: &[f64]) {
-        self.grip.event(event);
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Event(event, _) = entry {
+            self.grip.event(event);
+        }
     }
-    fn wants_event_rows(&self) -> bool {
-        false
+
+    fn wants(&self) -> Wants {
+        Wants::bare_events()
     }
+
     fn goes_on(&mut self, _: f64) -> bool {
         self.watcher.goes_on()
     }

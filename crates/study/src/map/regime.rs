@@ -5,7 +5,7 @@ use crate::journal::Journal;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use stickslip_drive::facts::{Prescribed, common_period};
-use stickslip_drive::{Event, EventKind, Limits, Plan, Record, RunError, Source};
+use stickslip_drive::{Due, Entry, EventKind, Limits, Plan, Record, RunError, Source};
 use stickslip_run::{Job, Watcher};
 
 /// Number of samples in the last period of a run, in addition to events.
@@ -215,7 +215,7 @@ struct Last<'w> {
 }
 
 impl Last<'_> {
-    fn take(&mut self, values: &[f64]) {
+    fn read(&mut self, values: &[f64]) {
         let at = |place: usize| values.get(place).copied().unwrap_or(f64::NAN);
         if at(0) < self.span[0] - SAME * self.span[1] {
             return;
@@ -241,28 +241,31 @@ impl Last<'_> {
 }
 
 impl Record for Last<'_> {
-    fn row(&mut self, values: &[f64]) {
-        self.take(values);
-    }
-
-    fn event(&mut self, event: &Event, values: &[f64]) {
-        self.take(values);
-        // Due to rounding, the last spring may not have reached its limit at the gross slip event.
-        let begins = matches!(event.kind, EventKind::GrossSlip | EventKind::BreaksLoose);
-        if event.source == Source::Contact(self.contact) && begins {
-            self.last[1] = f64::from(Regime::Gross as u8);
+    fn take(&mut self, entry: Entry<'_>) {
+        match entry {
+            Entry::Row(values) | Entry::Mark(values) => self.read(values),
+            Entry::Event(event, values) => {
+                self.read(values);
+                // Due to rounding, the last spring may not have reached its limit at the gross slip event.
+                let begins = matches!(event.kind, EventKind::GrossSlip | EventKind::BreaksLoose);
+                if event.source == Source::Contact(self.contact) && begins {
+                    self.last[1] = f64::from(Regime::Gross as u8);
+                }
+            }
+            _ => {}
         }
     }
 
-    fn next_mark(&mut self) -> Option<f64> {
-        let [start, end] = self.span;
-        let mark = start + (end - start) * (self.next as f64 / MOMENTS as f64);
-        self.next += 1;
-        (self.next <= MOMENTS).then_some(mark)
-    }
-
-    fn mark(&mut self, values: &[f64]) {
-        self.take(values);
+    fn next(&mut self, due: Due) -> Option<f64> {
+        match due {
+            Due::Look => None,
+            Due::Mark => {
+                let [start, end] = self.span;
+                let mark = start + (end - start) * (self.next as f64 / MOMENTS as f64);
+                self.next += 1;
+                (self.next <= MOMENTS).then_some(mark)
+            }
+        }
     }
 
     fn goes_on(&mut self, _: f64) -> bool {

@@ -8,7 +8,7 @@ use super::map::{Image, Map};
 use super::newton::Fixed;
 use crate::grip::{Grip, Loose};
 use stickslip_drive::scene::Axis;
-use stickslip_drive::{Event, EventKind, Model, Record, Source, State};
+use stickslip_drive::{Entry, EventKind, Model, Record, Source, State, Wants};
 
 /// Maximum number of compared midpoints. The longest intervals between events are preferred.
 const MOST: usize = 256;
@@ -60,26 +60,28 @@ impl Moments {
 }
 
 impl Record for Moments {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, event: &Event, row: &[f64]) {
-        self.times.push(event.t);
-        self.grip.iter_mut().for_each(|grip| grip.event(event));
-        match (event.source, event.kind) {
-            (Source::Contact(c), EventKind::GrossSlip | EventKind::BreaksLoose | EventKind::LiftOff) => {
-                self.gave_way.get_mut(c).into_iter().for_each(|gave_way| *gave_way = true);
-            }
-            // During a jump of the velocity, a contact may slip grossly without an event. Its stick radius is then 0.
-            (_, EventKind::Jump) => {
-                let sticks = |place: usize| row.get(place).is_none_or(|radius| *radius > 0.0);
-                for (gave_way, place) in self.gave_way.iter_mut().zip(&self.stick) {
-                    *gave_way |= place.is_some_and(|place| !sticks(place));
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Event(event, row) = entry {
+            self.times.push(event.t);
+            self.grip.iter_mut().for_each(|grip| grip.event(event));
+            match (event.source, event.kind) {
+                (Source::Contact(c), EventKind::GrossSlip | EventKind::BreaksLoose | EventKind::LiftOff) => {
+                    self.gave_way.get_mut(c).into_iter().for_each(|gave_way| *gave_way = true);
                 }
+                // During a jump of the velocity, a contact may slip grossly without an event. Its stick radius is then 0.
+                (_, EventKind::Jump) => {
+                    let sticks = |place: usize| row.get(place).is_none_or(|radius| *radius > 0.0);
+                    for (gave_way, place) in self.gave_way.iter_mut().zip(&self.stick) {
+                        *gave_way |= place.is_some_and(|place| !sticks(place));
+                    }
+                }
+                _ => {}
             }
-            _ => {}
         }
     }
-    fn wants_event_rows(&self) -> bool {
-        self.jumps
+
+    fn wants(&self) -> Wants {
+        if self.jumps { Wants::default() } else { Wants::bare_events() }
     }
 }
 

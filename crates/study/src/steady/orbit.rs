@@ -3,7 +3,7 @@
 use super::{Steady, SteadyError, endless};
 use std::path::PathBuf;
 use stickslip_drive::section::Section;
-use stickslip_drive::{Event, Limits, Model, Plan, Record, Run, State, Stepper};
+use stickslip_drive::{Entry, Limits, Model, Plan, Record, Run, State, Stepper};
 use stickslip_run::{Job, Series};
 
 /// Relative margin added to an instant with waveform corners, because the instant is a rounded sum.
@@ -23,11 +23,10 @@ pub struct Orbit {
 struct Rows(Series);
 
 impl Record for Rows {
-    fn row(&mut self, values: &[f64]) {
-        self.0.push(values);
-    }
-    fn event(&mut self, _: &Event, values: &[f64]) {
-        self.row(values);
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Row(values) | Entry::Event(_, values) = entry {
+            self.0.push(values);
+        }
     }
 }
 

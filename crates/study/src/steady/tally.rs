@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use stickslip_drive::{Event, EventKind, Record, Source};
+use stickslip_drive::{Entry, Event, EventKind, Record, Source, Wants};
 
 /// Numbers of events by source and kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -18,15 +18,17 @@ pub(super) fn tells(event: &Event) -> bool {
 }
 
 impl Record for Tally {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, event: &Event, _: &[f64]) {
-        if !tells(event) {
-            return;
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Event(event, _) = entry {
+            if !tells(event) {
+                return;
+            }
+            *self.0.entry(format!("{:?} {:?}", event.source, event.kind)).or_default() += 1;
         }
-        *self.0.entry(format!("{:?} {:?}", event.source, event.kind)).or_default() += 1;
     }
-    fn wants_event_rows(&self) -> bool {
-        false
+
+    fn wants(&self) -> Wants {
+        Wants::bare_events()
     }
 }
 
@@ -39,7 +41,8 @@ mod tests {
         let tally = |kinds: &[EventKind]| {
             let mut tally = Tally::default();
             for (k, kind) in kinds.iter().enumerate() {
-                tally.event(&Event { t: k as f64, source: Source::Contact(0), kind: *kind }, &[]);
+                let event = Event { t: k as f64, source: Source::Contact(0), kind: *kind };
+                tally.take(Entry::Event(&event, &[]));
             }
             tally
         };

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
+use stickslip_drive::{Entry, EventKind, Plan, Record, Run, Stepper};
 use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::continuation::{
@@ -49,9 +49,10 @@ fn the_branch_of_p1_is_what_is_found_at_each_stroke() -> Checked {
 struct Slips(u32);
 
 impl Record for Slips {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, event: &Event, _: &[f64]) {
-        self.0 += u32::from(event.kind == EventKind::GrossSlip);
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Event(event, _) = entry {
+            self.0 += u32::from(event.kind == EventKind::GrossSlip);
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 use stickslip_drive::scene::Axis;
-use stickslip_drive::{Event, EventKind, Plan, Record, Run, Stepper};
+use stickslip_drive::{Entry, EventKind, Plan, Record, Run, Stepper};
 use stickslip_run::Job;
 use stickslip_scenario::Scenario;
 use stickslip_study::steady::continuation::{Bifurcation, Branch, Continuation, Course};
@@ -200,12 +200,13 @@ struct Meetings {
 }
 
 impl Record for Meetings {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, event: &Event, _: &[f64]) {
-        match event.kind {
-            EventKind::Touch => self.touch.push(event.t),
-            EventKind::LiftOff => self.lift.push(event.t),
-            _ => {}
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Event(event, _) = entry {
+            match event.kind {
+                EventKind::Touch => self.touch.push(event.t),
+                EventKind::LiftOff => self.lift.push(event.t),
+                _ => {}
+            };
         }
     }
 }

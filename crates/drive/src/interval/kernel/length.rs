@@ -144,11 +144,7 @@ impl<'a, R: Row> Length<'a, R> {
     pub(super) fn at(&self, t: f64, x: &[f64], v: Option<&[f64]>) -> Reading {
         let followed = self.followed.at(t);
         let own = v.map_or(0.0, |v| self.row.dot(v));
-        Reading {
-            value: self.row.dot(x) + followed.value,
-            rate: own + followed.rate,
-            driven: followed.rate,
-        }
+        Reading { value: self.row.dot(x) + followed.value, rate: own + followed.rate, driven: followed.rate }
     }
 
     /// Returns the second derivative, m/s², from the accelerations of the coordinates.

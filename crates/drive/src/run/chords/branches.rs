@@ -13,12 +13,13 @@
 
 use super::Chords;
 use super::way::{Way, end_of, kink};
+use crate::Model;
 use crate::RunError;
 use crate::contact::{Contact, Motion};
 use crate::interval::Interval;
 use crate::method::Method;
+use crate::record::{Record, wants_events};
 use crate::state::State;
-use crate::{Model, record::Record};
 use stickslip_contact::{Apex, Branch, Law, Memory, Segment};
 
 /// Largest number of reversals that a slip memory keeps.
@@ -114,7 +115,7 @@ impl<'a> Chords<'a> {
             Some(branches) if branches.holds_all(self.model) && self.model.blocks.is_empty() => {}
             _ => return false,
         }
-        if t > self.horizon.end || self.output.due(t) || record.wants_events() {
+        if t > self.horizon.end || self.output.due(t) || wants_events(record) {
             return false;
         }
         self.move_contacts(state, t, y);

@@ -3,7 +3,7 @@
 use super::Chords;
 use crate::equations::Equations;
 use crate::event::{EventKind, Source};
-use crate::record::Record;
+use crate::record::{Record, wants_events};
 use crate::run::stored::stored;
 use crate::state::State;
 use crate::{Event, RunError};
@@ -81,7 +81,7 @@ impl Chords<'_> {
         if jumps {
             self.jump(state, before)?;
         }
-        if jumps && record.wants_events() {
+        if jumps && wants_events(record) {
             // Only jumps are reported. Other corners follow from the waveform.
             for (w, waveform) in model.waveforms.iter().enumerate() {
                 if waveform.has_jumps() && state.pieces[w].start == state.t {

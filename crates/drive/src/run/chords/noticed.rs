@@ -4,7 +4,7 @@ use super::{Chords, heading};
 use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
-use crate::record::Record;
+use crate::record::{Record, wants_events};
 use crate::state::State;
 use stickslip_contact::{ContactState, Memory};
 
@@ -22,7 +22,7 @@ impl Chords<'_> {
             let fallen = guards.iter().find(down).map(|guard| eq.block_next(k, *guard, state));
             let Some((kind, law)) = fallen.or_else(|| eq.block_turn(k, state)) else { continue };
             state.blocks[k].law = law;
-            if record.wants_events() {
+            if wants_events(record) {
                 let event = Event { t, source: Source::Block(k), kind };
                 let eq = Equations::on(self.model, state, self.layout, self.crossing);
                 self.output.event(&eq, state, &event, record);

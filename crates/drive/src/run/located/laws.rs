@@ -16,7 +16,7 @@ use crate::contact::{Contact, Motion, fired};
 use crate::equations::{Components, Equations};
 use crate::event::{Event, EventKind, Source};
 use crate::model::Measure;
-use crate::record::Record;
+use crate::record::{Entry, EventDetail, Record, wants_events};
 use crate::state::State;
 use stickslip_contact::{Change, Course, Guard, Interface, Law, Memory, Segment};
 use stickslip_stepper::{Attempt, System};
@@ -498,7 +498,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         record: &mut dyn Record,
     ) {
         state.counts.events += 1;
-        if record.wants_events() {
+        if wants_events(record) {
             self.tell(state, (source, kind), record);
         }
     }
@@ -516,10 +516,10 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     #[inline(never)]
     fn tell(&mut self, state: &State, (source, kind): (Source, EventKind), record: &mut dyn Record) {
         let event = Event { t: state.t, source, kind: self.output.rows.told(source, kind) };
-        if record.wants_event_rows() {
+        if record.wants().events == EventDetail::Rows {
             self.output.event(&self.setting.plain(state), state, &event, record);
         } else {
-            record.event(&event, &[]);
+            record.take(Entry::Event(&event, &[]));
         }
     }
 }

@@ -12,7 +12,7 @@ use super::{Located, Motion};
 use crate::RunError;
 use crate::equations::Equations;
 use crate::method::Method;
-use crate::record::Record;
+use crate::record::{Record, wants_events};
 use crate::run::horizon::Progress;
 use crate::state::{Books, State, Whereabouts, beyond};
 use stickslip_stepper::{Attempt, Completion, Grade, Rejection, StepControl, StepHistory, Verdict};
@@ -34,7 +34,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// The order is attempt, locate, accept, commit, next law. Fails if the step would be too small, if a value is not finite, if a contact
     /// or block cannot follow its path, or if a limit is reached. The state is then that of the last accepted step.
     pub(super) fn step(&mut self, state: &mut State, record: &mut dyn Record) -> Result<Progress, RunError> {
-        let tells_rows = self.output.rows.any() && record.wants_events();
+        let tells_rows = self.output.rows.any() && wants_events(record);
         if tells_rows {
             self.output.rows.look(self.setting.model, state);
         }

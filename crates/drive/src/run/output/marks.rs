@@ -5,7 +5,7 @@
 use crate::Model;
 use crate::equations::Equations;
 use crate::model::Binding;
-use crate::record::{self, Extent, Record};
+use crate::record::{self, Due, Entry, Extent, Record};
 use crate::scene::Axis;
 use crate::state::State;
 
@@ -57,7 +57,7 @@ impl Marks {
         record: &mut dyn Record,
     ) {
         self.watched =
-            record.watched().map(|body| match model.bodies.get(body?)?.bindings[Axis::X as usize] {
+            record.wants().watched.map(|body| match model.bodies.get(body?)?.bindings[Axis::X as usize] {
                 Binding::Free(i) => {
                     let extent = Extent::at(state.shifts[i] + state.y[i], state.t);
                     Some(Watched { coordinate: i, inside: None, extent })
@@ -106,7 +106,7 @@ impl Marks {
             }
         }
         record::fill(equations, state, t, y, &mut self.row);
-        record.mark(&self.row);
+        record.take(Entry::Mark(&self.row));
         self.ask(record);
     }
 
@@ -134,13 +134,13 @@ impl Marks {
         };
         let extents = self.watched.each_mut().map(take);
         if extents.iter().any(|extent| !extent.is_none()) {
-            record.extents(extents);
+            record.take(Entry::Extents(extents));
         }
     }
 
     /// Requests the next sample row. A requested time that is not later than the last one ends the sample rows.
     fn ask(&mut self, record: &mut dyn Record) {
-        let next = record.next_mark().unwrap_or(f64::INFINITY);
+        let next = record.next(Due::Mark).unwrap_or(f64::INFINITY);
         self.due = if next > self.due { next } else { f64::INFINITY };
         self.nearly = self.due * (1.0 - SAME);
     }

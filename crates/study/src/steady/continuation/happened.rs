@@ -7,7 +7,7 @@ use crate::steady::map::Map;
 use crate::steady::tally::tells;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use stickslip_drive::{Event, Record, Source, State};
+use stickslip_drive::{Entry, Event, Record, Source, State, Wants};
 
 /// Numbers of events in a period by source and kind.
 pub(super) type Happened = BTreeMap<(String, String), usize>;
@@ -41,12 +41,14 @@ pub struct Change {
 struct Events(Vec<Event>);
 
 impl Record for Events {
-    fn row(&mut self, _: &[f64]) {}
-    fn event(&mut self, event: &Event, _: &[f64]) {
-        self.0.push(*event);
+    fn take(&mut self, entry: Entry<'_>) {
+        if let Entry::Event(event, _) = entry {
+            self.0.push(*event);
+        }
     }
-    fn wants_event_rows(&self) -> bool {
-        false
+
+    fn wants(&self) -> Wants {
+        Wants::bare_events()
     }
 }
 
