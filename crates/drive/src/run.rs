@@ -13,6 +13,7 @@ mod output;
 mod reference;
 mod steady;
 mod stored;
+mod stretch;
 mod variants;
 
 pub use held::Run;

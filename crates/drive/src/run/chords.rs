@@ -26,7 +26,7 @@ use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
 use branches::{Branches, GROWING_KNOTS, KNOTS};
 pub(super) use step::Between;
-use stickslip_contact::{Branch, ContactState, Law, Memory, Segment};
+use stickslip_contact::{Branch, ContactState, Law, Memory};
 
 /// Run without event location: accepts steps, writes the output inside them and detects events afterwards.
 pub(super) struct Chords<'a> {
@@ -179,12 +179,10 @@ impl<'a> Chords<'a> {
     ///
     /// Ends the run at the period end at which the step length of the drive has become steady.
     pub(super) fn take_steps(&mut self, state: &State, t: f64, y: &[f64]) {
-        while let Some(due) = self.horizon.steps.due(t) {
-            let step = Between { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
-            if self.horizon.steps.take(0.0, step.value(self.horizon.steps.coordinate, due)) {
-                self.end_at(due);
-                return;
-            }
+        let mut step = Between { from: (state.t, &state.y), to: (t, y), free: self.layout.free };
+        let scratch = &mut self.output.components;
+        if let Some(end) = self.horizon.take_periods(state, &mut step, (t, scratch)) {
+            self.end_at(end);
         }
     }
 
@@ -268,31 +266,11 @@ impl<'a> Chords<'a> {
     }
 
     /// Writes rows and snapshots up to time t in the step that ends at `to`.
-    ///
-    /// A snapshot contains copies of the slip memories, each moved along one straight path to the time of the snapshot.
     fn write(&mut self, state: &State, t: f64, to: (f64, &[f64]), record: &mut dyn Record) {
-        let eq = Equations::on(self.model, state, self.layout, self.crossing);
-        let step = Between { from: (state.t, &state.y), to, free: self.layout.free };
-        while let Some(due) = self.output.grid.due(t) {
-            self.output.grid.write(&eq, state, due, &|i| step.value(i, due), record);
-        }
-        while let Some(due) = self.output.marks.due(t) {
-            self.output.marks.write(&eq, state, due, &|i| step.value(i, due), record);
-        }
-        if self.output.marks.watches() {
-            let point =
-                |i: usize| [t, state.shifts[i] + step.value(i, t), step.value(self.layout.velocity(i), t)];
-            self.output.marks.pass(state, point);
-            self.output.marks.end_step();
-        }
-        while let Some(due) = self.output.looks.due(t) {
-            let memories = self.model.contacts.iter().zip(&state.memories).map(|(contact, memory)| {
-                let apex = eq.motion(contact, due, |i| step.value(i, due)).apex();
-                let mut memory = memory.clone();
-                memory.commit(&contact.interface, Segment::Straight(apex)).map(|_| memory)
-            });
-            let memories: Result<Vec<_>, _> = memories.collect();
-            self.output.looks.show(self.model, memories.as_deref().ok(), record);
+        if self.output.due(t) {
+            let eq = Equations::on(self.model, state, self.layout, self.crossing);
+            let mut step = Between { from: (state.t, &state.y), to, free: self.layout.free };
+            self.output.take((&eq, state), &mut step, (t, 0.0), record);
         }
     }
 }

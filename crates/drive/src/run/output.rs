@@ -8,13 +8,13 @@ mod rows;
 mod turns;
 
 use crate::equations::Equations;
-use crate::event::{Event, EventKind, Source};
+use crate::event::Event;
 use crate::record::{self, Due, Entry, EventDetail, Record};
 use crate::state::{Layout, State};
 use crate::{Model, Moments, Schedule};
 use stickslip_contact::Memory;
 
-pub(super) use marks::Marks;
+pub(super) use marks::{Marks, Point};
 pub(super) use rows::Rows;
 pub(super) use turns::Turns;
 
@@ -29,7 +29,7 @@ pub(super) struct Output {
     pub(super) marks: Marks,
     pub(super) turns: Turns,
     pub(super) rows: Rows,
-    row: Vec<f64>,
+    pub(super) row: Vec<f64>,
     /// Scratch memory for the components at one time, or for their time derivatives.
     pub(super) components: Vec<f64>,
     /// Number of evaluations for output and other purposes that do not belong to the run.
@@ -108,22 +108,6 @@ impl Output {
     ) {
         record::fill(equations, state, state.t, &|i| state.y[i], &mut self.row);
         record.take(Entry::Event(event, &self.row));
-    }
-
-    /// Reports the turning points of u in the current step up to time `until`, s. `y` returns a component at a given time.
-    pub(super) fn tell_turns(
-        &mut self,
-        equations: &Equations<'_>,
-        state: &State,
-        until: f64,
-        y: impl Fn(usize, f64) -> f64,
-        record: &mut dyn Record,
-    ) {
-        while let Some((t, c)) = self.turns.take(until) {
-            record::fill(equations, state, t, &|i| y(i, t), &mut self.row);
-            let event = Event { t, source: Source::Contact(c), kind: EventKind::Turn };
-            record.take(Entry::Event(&event, &self.row));
-        }
     }
 }
 

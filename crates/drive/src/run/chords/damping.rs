@@ -8,6 +8,7 @@ use super::step::Between;
 use crate::contact::Contact;
 use crate::equations::Equations;
 use crate::state::State;
+use stickslip_contact::gauss;
 
 /// Number of bisections that find where a damping force vanishes.
 const BISECTIONS: u32 = 20;
@@ -35,19 +36,17 @@ impl Chords<'_> {
         if first == 0.0 && last == 0.0 {
             return 0.0;
         }
-        if first == 0.0 || last.abs() > least {
-            return simpson(duration, [first, power(0.5), last]);
+        if first != 0.0 && last.abs() > least {
+            return duration / 6.0 * (first + 4.0 * power(0.5) + last);
+        }
+        if first == 0.0 {
+            return duration * gauss([0.0, 1.0], power);
         }
         let (mut acts, mut ends) = (0.0, 1.0);
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (acts + ends);
             *(if power(middle).abs() > least { &mut acts } else { &mut ends }) = middle;
         }
-        simpson(duration * ends, [first, power(0.5 * ends), power(ends)])
+        duration * gauss([0.0, ends], power)
     }
-}
-
-/// Integrates a function from its values at both ends and in the middle: exact for a cubic, as the damping power is where u̇ is linear.
-fn simpson(duration: f64, [first, middle, last]: [f64; 3]) -> f64 {
-    duration / 6.0 * (first + 4.0 * middle + last)
 }

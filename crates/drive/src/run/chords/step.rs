@@ -1,5 +1,7 @@
 //! Interpolation within an accepted step.
 
+use crate::run::stretch::Stretch;
+
 /// Accepted step with its components at both ends.
 pub(in crate::run) struct Between<'a> {
     pub(in crate::run) from: (f64, &'a [f64]),
@@ -24,5 +26,11 @@ impl Between<'_> {
         }
         let (v0, v1, mean) = (from[n + i], to[n + i], (to[i] - from[i]) / h);
         straight + h * s * (1.0 - s) * ((1.0 - s) * (v0 - mean) - s * (v1 - mean))
+    }
+}
+
+impl Stretch for Between<'_> {
+    fn fill(&mut self, t: f64, y: &mut [f64]) {
+        y.iter_mut().enumerate().for_each(|(i, y)| *y = self.value(i, t));
     }
 }

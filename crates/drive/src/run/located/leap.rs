@@ -9,11 +9,13 @@ use super::Located;
 use super::watch::Fallen;
 use crate::RunError;
 use crate::equations::Equations;
-use crate::interval::{Closed, PhasePoint};
+use crate::interval::{Closed, PhasePoint, Swing};
 use crate::method::Method;
 use crate::record::Record;
 use crate::run::horizon::Progress;
-use crate::state::{Books, State, beyond};
+use crate::run::output::Point;
+use crate::run::stretch::Stretch;
+use crate::state::{Books, Layout, State, beyond};
 use stickslip_contact::Guard;
 use stickslip_stepper::Attempt;
 
@@ -111,117 +113,28 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// A steady step length ends the run at that period end.
     #[inline(never)]
     fn leap_over_steps(&mut self, state: &State, to: PhasePoint) -> PhasePoint {
-        while let Some(due) = self.horizon.steps.due(to.t) {
-            let place = if due < to.t { self.swing.at(due) } else { to };
-            if self.horizon.steps.take(state.shifts[self.horizon.steps.coordinate], place.x) {
-                self.end_at(due);
-                return place;
-            }
-        }
-        to
+        let mut y = std::mem::take(&mut self.output.components);
+        let layout = self.setting.layout;
+        let mut leap = Leap { swing: &mut self.swing, takeoff: self.takeoff, layout, state, to };
+        let end = self.horizon.take_periods(state, &mut leap, (to.t, &mut y));
+        self.output.components = y;
+        let Some(end) = end else { return to };
+        self.end_at(end);
+        if end < to.t { self.swing.at(end) } else { to }
     }
 
-    /// Writes the rows and snapshots that are due within the closed-form step.
-    ///
-    /// The state is only read. Scratch memory of the output is reused, so that nothing is allocated.
+    /// Writes the output that is due within the closed-form step.
     #[inline(never)]
     fn write_on_the_way(&mut self, state: &State, to: PhasePoint, record: &mut dyn Record) {
         let eq = self.setting.plain(state);
-        let mut y = std::mem::take(&mut self.output.components);
-        while let Some(due) = self.output.grid.due(to.t) {
-            self.fill(state, due, to, &mut y);
-            self.output.grid.write(&eq, state, due, &|i| y[i], record);
-        }
-        if self.output.marks.watches() {
-            self.pass_leap(&eq, state, to, (&mut y, record));
-        }
-        while let Some(due) = self.output.marks.due(to.t) {
-            self.fill(state, due, to, &mut y);
-            self.output.marks.write(&eq, state, due, &|i| y[i], record);
-        }
-        while let Some(due) = self.output.looks.due(to.t) {
-            self.fill(state, due, to, &mut y);
-            let memories = self.memories_at(&eq, state, due, |i| y[i]);
-            self.output.looks.show(self.setting.model, memories.as_deref().ok(), record);
-        }
-        self.output.components = y;
-    }
-
-    /// Determines the extent of the watched body in the closed-form step and writes sample rows.
-    fn pass_leap(
-        &mut self,
-        eq: &Equations<'_>,
-        state: &State,
-        to: PhasePoint,
-        (y, record): (&mut [f64], &mut dyn Record),
-    ) {
-        let mut from = PhasePoint { t: state.t, x: state.y[0], v: state.y[1] };
-        while let Some(due) = self.output.marks.due(to.t) {
-            let place = if due < to.t { self.swing.at(due) } else { to };
-            self.pass_arc(state, from, place);
-            self.fill(state, due, to, y);
-            self.output.marks.write(eq, state, due, &|i| y[i], record);
-            from = place;
-        }
-        self.pass_arc(state, from, to);
-        self.output.marks.end_step();
-    }
-
-    /// Determines the extent of the watched body over a part of the closed-form step.
-    ///
-    /// Between velocities of opposite sign there is one turning point. Between velocities of the same sign there are
-    /// two or none, because the sliding velocity rises and falls at most once.
-    fn pass_arc(&mut self, state: &State, from: PhasePoint, to: PhasePoint) {
-        let shift = state.shifts[0];
-        let point = |place: PhasePoint| [place.t, shift + place.x, place.v];
-        // For a parabola the cubic is exact.
-        if !self.swing.is_free() && to.t > from.t {
-            let mut turns = [None, None];
-            if from.v * to.v < 0.0 {
-                turns[0] = Some(self.turn_between(from, to));
-            } else if self.swing.leads_back(from.v) {
-                // In the middle, sliding may be faster than the follower that moves the body back.
-                let middle = self.swing.at(0.5 * (from.t + to.t));
-                if middle.v * from.v < 0.0 {
-                    turns = [(from, middle), (middle, to)].map(|(a, b)| Some(self.turn_between(a, b)));
-                }
-            }
-            turns.into_iter().flatten().for_each(|turn| self.output.marks.pass(state, |_| point(turn)));
-        }
-        self.output.marks.pass(state, |_| point(to));
-    }
-
-    /// Returns a point near the zero of the velocity, by the Illinois variant of the secant method.
-    fn turn_between(&mut self, mut a: PhasePoint, mut b: PhasePoint) -> PhasePoint {
-        let slow = SLOW * a.v.abs().max(b.v.abs());
-        let (mut va, mut vb) = (a.v, b.v);
-        for _ in 0..SECANTS {
-            let middle = self.swing.at(a.t + va / (va - vb) * (b.t - a.t));
-            if middle.v.abs() <= slow || !(middle.t > a.t && middle.t < b.t) {
-                return middle;
-            }
-            if middle.v * va < 0.0 {
-                (b, vb, va) = (middle, middle.v, 0.5 * va);
-            } else {
-                (a, va, vb) = (middle, middle.v, 0.5 * vb);
-            }
-        }
-        a
-    }
-
-    /// Writes the components at time `due` of the closed-form step into `y`.
-    ///
-    /// Only position (m), velocity (m/s) and input work (J) differ from the state.
-    fn fill(&mut self, state: &State, due: f64, to: PhasePoint, y: &mut [f64]) {
-        let place = if due < to.t { self.swing.at(due) } else { to };
-        y.copy_from_slice(&state.y);
-        (y[0], y[1]) = (place.x, place.v);
-        y[self.setting.layout.input()] = self.input_at(&place);
+        let layout = self.setting.layout;
+        let mut leap = Leap { swing: &mut self.swing, takeoff: self.takeoff, layout, state, to };
+        self.output.take((&eq, state), &mut leap, (to.t, self.setting.tolerance), record);
     }
 
     /// Returns the input work at a point of the closed-form step, J. It counts from the start of the step, even across interruptions.
     fn input_at(&self, place: &PhasePoint) -> f64 {
-        self.takeoff.unwrap_or(0.0) + self.swing.work(place)
+        input(&self.swing, self.takeoff, place)
     }
 
     /// Moves the state to a point of the closed-form step without committing memories. If the interval `ends`, counts one step.
@@ -280,5 +193,80 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             left(steady) <= least.max(0.0) + near
         });
         self.watch.fired.extend(reached.map(|steady| Fallen::Contact(steady.index, Guard::Piece)));
+    }
+}
+
+/// Closed-form motion of a single slider from the state to a point.
+struct Leap<'r, 'a> {
+    swing: &'r mut Swing<'a>,
+    /// Input work at the start of the motion, J.
+    takeoff: Option<f64>,
+    layout: Layout,
+    state: &'r State,
+    to: PhasePoint,
+}
+
+/// Returns the input work at a point of the closed-form motion, J.
+fn input(swing: &Swing<'_>, takeoff: Option<f64>, place: &PhasePoint) -> f64 {
+    takeoff.unwrap_or(0.0) + swing.work(place)
+}
+
+impl Leap<'_, '_> {
+    fn at(&mut self, t: f64) -> PhasePoint {
+        match t {
+            _ if t >= self.to.t => self.to,
+            _ if t == self.state.t => PhasePoint { t, x: self.state.y[0], v: self.state.y[1] },
+            _ => self.swing.at(t),
+        }
+    }
+
+    /// Returns a point near the zero of the velocity, by the Illinois variant of the secant method.
+    fn turn_between(&mut self, mut a: PhasePoint, mut b: PhasePoint) -> PhasePoint {
+        let slow = SLOW * a.v.abs().max(b.v.abs());
+        let (mut va, mut vb) = (a.v, b.v);
+        for _ in 0..SECANTS {
+            let middle = self.swing.at(a.t + va / (va - vb) * (b.t - a.t));
+            if middle.v.abs() <= slow || !(middle.t > a.t && middle.t < b.t) {
+                return middle;
+            }
+            if middle.v * va < 0.0 {
+                (b, vb, va) = (middle, middle.v, 0.5 * va);
+            } else {
+                (a, va, vb) = (middle, middle.v, 0.5 * vb);
+            }
+        }
+        a
+    }
+}
+
+impl Stretch for Leap<'_, '_> {
+    /// Only position (m), velocity (m/s) and input work (J) differ from the state.
+    fn fill(&mut self, t: f64, y: &mut [f64]) {
+        let place = self.at(t);
+        y.copy_from_slice(&self.state.y);
+        (y[0], y[1]) = (place.x, place.v);
+        y[self.layout.input()] = input(self.swing, self.takeoff, &place);
+    }
+
+    /// Between velocities of opposite sign there is one turning point. Between velocities of the same sign there are two or none, because
+    /// the sliding velocity rises and falls at most once.
+    fn extremes(&mut self, [from, to]: [f64; 2], pass: &mut dyn FnMut(Point)) {
+        // For a parabola the cubic is exact.
+        if self.swing.is_free() || to <= from {
+            return;
+        }
+        let shift = self.state.shifts[0];
+        let (from, to) = (self.at(from), self.at(to));
+        let mut turns = [None, None];
+        if from.v * to.v < 0.0 {
+            turns[0] = Some(self.turn_between(from, to));
+        } else if self.swing.leads_back(from.v) {
+            // In the middle, sliding may be faster than the follower that moves the body back.
+            let middle = self.swing.at(0.5 * (from.t + to.t));
+            if middle.v * from.v < 0.0 {
+                turns = [(from, middle), (middle, to)].map(|(a, b)| Some(self.turn_between(a, b)));
+            }
+        }
+        turns.into_iter().flatten().for_each(|turn| pass([turn.t, shift + turn.x, turn.v]));
     }
 }

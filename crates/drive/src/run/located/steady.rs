@@ -4,26 +4,20 @@
 //! cut there.
 
 use super::Located;
+use super::write::Attempted;
 use crate::equations::Equations;
 use crate::state::State;
-use stickslip_stepper::{Attempt, Completion};
+use stickslip_stepper::Attempt;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
-    /// Evaluates the step length of the drive at all period ends in the attempted step, from the dense output.
-    ///
-    /// Ends the run at the period end at which this step length has become steady. Otherwise nothing changes.
+    /// Ends the run at the period end inside the attempted step at which the step length of the drive has become steady, if it has.
     #[inline(never)]
     pub(super) fn take_steps(&mut self, state: &State) {
-        let (t, i) = (self.motion.solver.span().end_time, self.horizon.steps.coordinate);
-        while let Some(due) = self.horizon.steps.due(t) {
-            let eq = self.setting.equations(state, &self.interval);
-            if due < t {
-                self.motion.solver.complete(&eq, Completion::Dense);
-            }
-            if self.horizon.steps.take(state.shifts[i], self.motion.component(i, due)) {
-                self.end_at(due);
-                return;
-            }
+        let (t, tolerance) = (self.motion.solver.span().end_time, self.setting.tolerance);
+        let eq = self.setting.equations(state, &self.interval);
+        let mut step = Attempted { motion: &mut self.motion, eq: &eq, state, tolerance };
+        if let Some(end) = self.horizon.take_periods(state, &mut step, (t, &mut self.output.components)) {
+            self.end_at(end);
         }
     }
 }

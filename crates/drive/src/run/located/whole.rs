@@ -294,8 +294,8 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
                 if self.is_read_inside(to.0) {
                     self.fill_slopes(state, [from, to], slopes);
                 }
-                let half = Way { from, to, slopes, free: self.setting.layout.free };
-                self.take_half(state, &half, record)?;
+                let mut half = Way { from, to, slopes, free: self.setting.layout.free };
+                self.take_half(state, &mut half, record)?;
             }
         }
         state.counts.steps += 1;
@@ -325,34 +325,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     fn take_half(
         &mut self,
         state: &mut State,
-        half: &Way<'_>,
+        half: &mut Way<'_>,
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        self.take_periods(state, half);
+        if let Some(end) = self.horizon.take_periods(state, half, (half.to.0, &mut self.output.components)) {
+            self.end_at(end);
+        }
         let t = half.to.0.min(self.horizon.end);
-        let y = |i: usize| half.value(i, t);
         let eq = self.setting.plain(state);
-        while let Some(due) = self.output.grid.due(t) {
-            self.output.grid.write(&eq, state, due, &|i| half.value(i, due), record);
-        }
-        let at = |i: usize, t: f64| half.value(i, t);
-        if self.output.turns.notice(&eq, (state.t, &state.y), (t, y), self.setting.tolerance) {
-            self.output.turns.locate(&eq, [state.t, t], at);
-        }
-        while let Some(due) = self.output.marks.due(t) {
-            self.output.tell_turns(&eq, state, due, at, record);
-            self.output.marks.write(&eq, state, due, &|i| half.value(i, due), record);
-        }
-        self.output.tell_turns(&eq, state, t, at, record);
-        if self.output.marks.watches() {
-            let point = |i: usize| [t, state.shifts[i] + y(i), y(self.setting.layout.velocity(i))];
-            self.output.marks.pass(state, point);
-            self.output.marks.end_step();
-        }
-        while let Some(due) = self.output.looks.due(t) {
-            let memories = self.memories_at(&eq, state, due, |i| half.value(i, due));
-            self.output.looks.show(self.setting.model, memories.as_deref().ok(), record);
-        }
+        self.output.take((&eq, state), half, (t, self.setting.tolerance), record);
+        let y = |i: usize| half.value(i, t);
         for (c, contact) in self.setting.model.contacts.iter().enumerate() {
             let path = chord(&self.setting.plain(state), contact, t, y);
             let friction = state.memories[c]
@@ -369,17 +351,6 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
             return Ok(());
         }
         self.ledger.commit_blocks((self.setting.model, self.setting.layout), state)
-    }
-
-    /// Evaluates the period ends in a half step. A steady step length of the drive ends the run.
-    fn take_periods(&mut self, state: &State, half: &Way<'_>) {
-        while let Some(due) = self.horizon.steps.due(half.to.0) {
-            let i = self.horizon.steps.coordinate;
-            if self.horizon.steps.take(state.shifts[i], half.value(i, due)) {
-                self.end_at(due);
-                return;
-            }
-        }
     }
 }
 

@@ -111,16 +111,16 @@ impl Turns {
         self.at = t;
     }
 
-    /// Computes the times of the turning points found between two times. `y` returns a component at a given time.
+    /// Computes the times of the turning points found between two times. `rate` returns u̇ of a contact at a given time, m/s.
     pub(in crate::run) fn locate(
         &mut self,
         eq: &Equations<'_>,
         [from, to]: [f64; 2],
-        y: impl Fn(usize, f64) -> f64,
+        mut rate: impl FnMut(f64, &Contact) -> f64,
     ) {
         for (moment, c) in &mut self.found {
             let contact = &eq.model.contacts[*c];
-            let rate = |t: f64| eq.slide(contact, t, |i| y(i, t)).rate;
+            let mut rate = |t: f64| rate(t, contact);
             let bracket =
                 Bracket { from: Point { x: from, y: rate(from) }, to: Point { x: to, y: rate(to) } };
             *moment = root(rate, bracket, NEAR * (to - from));

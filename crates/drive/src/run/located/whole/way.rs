@@ -1,5 +1,7 @@
 //! Interpolation inside a half step of step doubling.
 
+use crate::run::stretch::Stretch;
+
 /// Half step, with components and time derivatives at both ends.
 pub(super) struct Way<'y> {
     pub(super) from: (f64, &'y [f64]),
@@ -32,6 +34,14 @@ impl Way<'_> {
             bend * k1[n + i] + 6.0 * rise - 2.0 * first - 4.0 * last
         });
         cubic + 0.5 * square * square * (left * from + s * to)
+    }
+}
+
+impl Stretch for Way<'_> {
+    const TURNS: bool = true;
+
+    fn fill(&mut self, t: f64, y: &mut [f64]) {
+        y.iter_mut().enumerate().for_each(|(i, y)| *y = self.value(i, t));
     }
 }
 
