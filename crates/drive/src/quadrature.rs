@@ -5,7 +5,6 @@
 //! Between two turning points the function is periodic in an angle, so equally spaced Gauss–Chebyshev nodes are used.
 
 use crate::sine::sine;
-use std::array;
 use std::f64::consts::PI;
 
 /// Number of nodes of the finest rule.
@@ -22,6 +21,31 @@ pub(crate) const LANES: usize = 4;
 
 /// Values that are evaluated together.
 pub(crate) type Lanes = [f64; LANES];
+
+/// Returns a function of every lane.
+// The loops of this and the next function are inlined in every build; those of `map` and `from_fn` of arrays only if crates are optimised
+// together.
+#[inline(always)]
+pub(crate) fn each<const L: usize>(mut of: [f64; L], f: impl Fn(f64) -> f64) -> [f64; L] {
+    let mut i = 0;
+    while i < L {
+        of[i] = f(of[i]);
+        i += 1;
+    }
+    of
+}
+
+/// Returns lanes by their index.
+#[inline(always)]
+pub(crate) fn lanes<const L: usize>(f: impl Fn(usize) -> f64) -> [f64; L] {
+    let mut made = [0.0; L];
+    let mut i = 0;
+    while i < L {
+        made[i] = f(i);
+        i += 1;
+    }
+    made
+}
 
 /// Returns their sum.
 #[inline(always)]
@@ -158,9 +182,11 @@ impl Rule {
         for nodes in self.nodes() {
             // Four nodes are evaluated together.
             let y = f(nodes.at);
-            sums = array::from_fn(|k| array::from_fn(|i| sums[k][i] + nodes.shares[k][i] * y[i]));
+            for (sums, shares) in sums.iter_mut().zip(&nodes.shares) {
+                *sums = lanes(|i| sums[i] + shares[i] * y[i]);
+            }
         }
-        let [value, second, first] = sums.map(total);
+        let [value, second, first] = [total(sums[0]), total(sums[1]), total(sums[2])];
         // Two coefficients, because every second one of an even or odd function vanishes.
         let tail = second.abs() + first.abs();
         let error = CAUTION * (tail / value).powi(2);

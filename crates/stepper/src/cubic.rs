@@ -47,8 +47,8 @@ impl Cubic {
     #[must_use]
     pub fn stays_above(&self, level: f64) -> bool {
         let third = self.h / 3.0;
-        let points = [self.y0, self.y0 + third * self.dy0, self.y1 - third * self.dy1, self.y1];
-        points.into_iter().all(|y| y > level)
+        let (first, last) = (self.y0 + third * self.dy0, self.y1 - third * self.dy1);
+        self.y0 > level && first > level && last > level && self.y1 > level
     }
 
     /// Returns the minimum inside the step: x is its position as a fraction θ of the step (0 < θ < 1), y its value. None without a minimum.

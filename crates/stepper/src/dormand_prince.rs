@@ -150,6 +150,7 @@ impl Method for DormandPrince {
 
 impl Step for DormandPrince {
     /// States have `total` components.
+    #[inline]
     fn span(&self) -> Span<'_> {
         let (begin, end) = (&self.begin[..self.total], &self.end[..self.total]);
         Span { time: self.extent.time, end_time: self.extent.end_time, begin, end }

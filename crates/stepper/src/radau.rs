@@ -76,6 +76,17 @@ struct Extent {
     step: f64,
 }
 
+/// Returns an array by its index. Unlike `array::from_fn`, it is inlined in every build.
+#[inline(always)]
+fn lanes<const N: usize>(f: impl Fn(usize) -> f64) -> [f64; N] {
+    let (mut made, mut i) = ([0.0; N], 0);
+    while i < N {
+        made[i] = f(i);
+        i += 1;
+    }
+    made
+}
+
 impl Radau {
     /// Returns a workspace for systems with `total` components, of which `dimension` are coupled and `positions` are positions
     /// ([`System::positions`]).

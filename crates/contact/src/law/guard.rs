@@ -123,7 +123,7 @@ impl Guard {
     pub fn beside((memory, law): (&Memory, &Law), at: &Motion) -> [f64; 2] {
         let Some(branch) = law.branch() else { return [f64::INFINITY, 0.0] };
         match memory.branching().and_then(|branching| branching.beside(at.apex())) {
-            Some([above, slope]) => [above, at.du - slope * at.dd].map(|of| branch.sense() * of),
+            Some([above, slope]) => [branch.sense() * above, branch.sense() * (at.du - slope * at.dd)],
             None => [f64::INFINITY, 0.0],
         }
     }

@@ -79,8 +79,11 @@ impl<'a> Sum<'a> {
     /// Creates sums that contain gravity and constant loads; their work counts as potential energy, not as power.
     #[inline(always)]
     pub(crate) fn new(free: &[Free], dv: &'a mut [f64]) -> Self {
-        for (dv, free) in dv.iter_mut().zip(free) {
-            *dv = free.force;
+        let (mut i, count) = (0, dv.len().min(free.len()));
+        // An iterator is inlined only if crates are optimised together.
+        while i < count {
+            dv[i] = free[i].force;
+            i += 1;
         }
         Self { dv, input: 0.0, damping: 0.0 }
     }
@@ -108,7 +111,9 @@ impl<'a> Sum<'a> {
 /// Converts the forces on the free coordinates to accelerations.
 #[inline(always)]
 pub(crate) fn accelerate(free: &[Free], dv: &mut [f64]) {
-    for (dv, free) in dv.iter_mut().zip(free) {
-        *dv *= free.mobility;
+    let (mut i, count) = (0, dv.len().min(free.len()));
+    while i < count {
+        dv[i] *= free[i].mobility;
+        i += 1;
     }
 }

@@ -61,9 +61,11 @@ impl DormandPrince {
             let (bend, lifted) = (h * k[0] - rise, lift(k));
             let cubic = [begin, rise, bend, rise - h * k[last] - bend];
             for (lane, c) in c.iter_mut().enumerate() {
-                let [first, second, third, fourth] = cubic.map(|Pair(of)| of[lane]);
-                let [fifth, sixth, seventh, eighth] = lifted.map(|of| (h * of).0[lane]);
-                *c = [first, second, third, fourth, fifth, sixth, seventh, eighth];
+                let [first, second, third, fourth] = &cubic;
+                let [fifth, sixth, seventh, eighth] = &lifted;
+                let low = [first.0[lane], second.0[lane], third.0[lane], fourth.0[lane]];
+                let high = [fifth.0[lane], sixth.0[lane], seventh.0[lane], eighth.0[lane]];
+                *c = [low[0], low[1], low[2], low[3], h * high[0], h * high[1], h * high[2], h * high[3]];
             }
         }
         // The linear part that graded stages leave out: φ = σ ∓ σ(1-σ).

@@ -116,7 +116,8 @@ impl Track {
     /// Estimates the quadrature error of the mean rate from the Legendre coefficient of degree 5. The decrease of the coefficients
     /// extrapolates this coefficient from degree 3.
     fn missed(&self) -> f64 {
-        let [first, second, third] = LEGENDRE.each_ref().map(|weights| dot(weights, &self.k, STAGES).abs());
+        let size = |weights: &[f64]| dot(weights, &self.k, STAGES).abs();
+        let (first, second, third) = (size(&LEGENDRE[0]), size(&LEGENDRE[1]), size(&LEGENDRE[2]));
         let before = first.max(second);
         if third < before { MISSED * third * (third / before) } else { MISSED * third }
     }

@@ -32,7 +32,7 @@ impl Radau {
 
 /// Returns the divided differences of values z at the nodes, and of 0 at the start.
 fn differences(z: &Stages) -> Polynomial {
-    let mut c: Stages = std::array::from_fn(|i| z[i] / NODES[i]);
+    let mut c: Stages = super::lanes(|i| z[i] / NODES[i]);
     for order in 1..STAGES {
         for i in (order..STAGES).rev() {
             c[i] = (c[i] - c[i - 1]) / (NODES[i] - NODES[i - order]);

@@ -64,11 +64,11 @@ impl Radau {
         let (p, n, h) = (self.positions, self.dimension, self.extent.step);
         for component in p..n {
             let k = &self.k[component];
-            self.z[component] = std::array::from_fn(|i| h * dot(&A[i], k));
+            self.z[component] = super::lanes(|i| h * dot(&A[i], k));
         }
         for x in 0..p {
             let (speed, k) = (self.begin[p + x], &self.k[p + x]);
-            self.z[x] = std::array::from_fn(|i| h * (NODES[i] * speed + h * dot(&SQUARE[i], k)));
+            self.z[x] = super::lanes(|i| h * (NODES[i] * speed + h * dot(&SQUARE[i], k)));
         }
     }
 
@@ -104,11 +104,11 @@ impl Radau {
         let m = n - p;
         self.matrix.solve(&mut self.missed);
         for a in 0..m {
-            let by: [f64; STAGES] = std::array::from_fn(|i| self.missed[i * m + a]);
+            let by: [f64; STAGES] = super::lanes(|i| self.missed[i * m + a]);
             self.k[p + a].iter_mut().zip(by).for_each(|(k, by)| *k += by);
-            self.shift[p + a] = std::array::from_fn(|i| h * dot(&A[i], &by));
+            self.shift[p + a] = super::lanes(|i| h * dot(&A[i], &by));
             if a < p {
-                self.shift[a] = std::array::from_fn(|i| h * h * dot(&SQUARE[i], &by));
+                self.shift[a] = super::lanes(|i| h * h * dot(&SQUARE[i], &by));
             }
         }
         self.follow();
@@ -137,7 +137,7 @@ impl Radau {
         }
         for q in n..self.k.len() {
             let k = &self.k[q];
-            self.z[q] = std::array::from_fn(|i| h * dot(&A[i], k));
+            self.z[q] = super::lanes(|i| h * dot(&A[i], k));
         }
         for (to, (y, z)) in self.end.iter_mut().zip(self.begin.iter().zip(&self.z)) {
             *to = y + z[STAGES - 1];

@@ -55,9 +55,11 @@ impl<const N: usize> Row for Dense<N> {
     #[inline(always)]
     fn dot(&self, x: &[f64]) -> f64 {
         let Some(x) = x.first_chunk::<N>() else { return 0.0 };
-        let mut sum = self.0[0] * x[0];
-        for (a, x) in self.0.iter().zip(x).skip(1) {
-            sum += a * x;
+        let (mut sum, mut i) = (self.0[0] * x[0], 1);
+        // An iterator is inlined only if crates are optimised together.
+        while i < N {
+            sum += self.0[i] * x[i];
+            i += 1;
         }
         sum
     }
@@ -65,7 +67,11 @@ impl<const N: usize> Row for Dense<N> {
     #[inline(always)]
     fn pull(&self, forces: &mut [f64], force: f64) {
         let Some(forces) = forces.first_chunk_mut::<N>() else { return };
-        forces.iter_mut().zip(self.0).for_each(|(sum, a)| *sum += a * force);
+        let mut i = 0;
+        while i < N {
+            forces[i] += self.0[i] * force;
+            i += 1;
+        }
     }
 
     #[inline(always)]

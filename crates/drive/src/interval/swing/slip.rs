@@ -9,7 +9,7 @@
 //!
 //! A product with a series V obeys Leibniz' rule: (fV)\[a, y, c\] = f\[a, y, c\]V(c) + f\[a, y\]V\[y, c\] + f(a)V\[a, y, c\].
 
-use std::array;
+use crate::quadrature::{each, lanes};
 use stickslip_contact::RootSeries;
 
 /// Largest number of coefficients Cₛ.
@@ -79,7 +79,7 @@ impl PartialSlip {
         let height = |q: f64| self.height - self.lean * q;
         // A turning point beyond the centre has no root of a height.
         self.beyond = height(high).min(0.0);
-        let ends = [above(height(low)), above(height(high))].map(root::<N>);
+        let ends = each([above(height(low)), above(height(high))], root::<N>);
         let [a, c] = ends;
         let scale = self.gain * self.lean / symmetric(N - 1, a, c);
         let mut sums = [0.0; 2 * DEGREES];
@@ -132,7 +132,7 @@ impl PartialSlip {
     /// Returns the contact's contribution to K at q, 1/s².
     #[inline(always)]
     pub(super) fn stiffness<const L: usize>(&self, q: [f64; L]) -> [f64; L] {
-        let heights = q.map(|q| above(self.height - self.lean * q));
+        let heights = each(q, |q| above(self.height - self.lean * q));
         // One branch for all nodes keeps the usual case fast.
         if self.beyond < 0.0 {
             return rooted!(self.law, N => self.stiffness_beyond::<N, L>(heights));
@@ -140,7 +140,7 @@ impl PartialSlip {
         if self.law.terms.len() > 1 {
             return self.stiffness_of_series(heights);
         }
-        rooted!(self.law, N => heights.map(root::<N>).map(|y| self.leading_stiffness::<N>(y)))
+        rooted!(self.law, N => each(heights, |height| self.leading_stiffness::<N>(root::<N>(height))))
     }
 
     /// Returns the contribution of the leading term to K, for V = 1.
@@ -155,7 +155,7 @@ impl PartialSlip {
     fn stiffness_of_series<const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
         let ([a, c], scale) = (self.ends, self.gain * self.lean);
         let (first, last) = (a * a, c * c);
-        heights.map(|height| {
+        each(heights, |height| {
             let y = height.sqrt();
             let [value, slope, bend] = self.law.divided([last, height, first]);
             let differences = mean_power::<2>(a, y) * slope + first * first * a * bend;
@@ -165,11 +165,10 @@ impl PartialSlip {
 
     /// Returns the contribution to K if the turning point lies beyond the contact centre.
     fn stiffness_beyond<const N: usize, const L: usize>(&self, heights: [f64; L]) -> [f64; L] {
-        let (a, roots) = (self.ends[0], heights.map(root::<N>));
+        let (a, roots) = (self.ends[0], each(heights, root::<N>));
         let first = a.powi(N as i32);
-        let mut inner = roots.map(|y| mean_power::<N>(a, y));
-        let mut outer: [f64; L] =
-            array::from_fn(|i| heights[i] * heights[i] * roots[i] / (heights[i] - self.beyond));
+        let mut inner = each(roots, |y| mean_power::<N>(a, y));
+        let mut outer: [f64; L] = lanes(|i| heights[i] * heights[i] * roots[i] / (heights[i] - self.beyond));
         if self.law.terms.len() > 1 {
             for i in 0..L {
                 let [value, slope, _] = self.law.divided([heights[i], first, 0.0]);
@@ -177,17 +176,17 @@ impl PartialSlip {
             }
         }
         let scale = self.gain * self.lean / (first - self.beyond);
-        array::from_fn(|i| scale * (inner[i] - outer[i]))
+        lanes(|i| scale * (inner[i] - outer[i]))
     }
 
     /// Returns the contact's contributions to the mean of b up to q, to b and to db/dq; m/s², m/s², 1/s².
     #[inline(always)]
     pub(super) fn pull<const L: usize>(&self, q: [f64; L]) -> [[f64; L]; 3] {
-        let heights = q.map(|q| self.height - self.lean * q);
-        let inside = heights.map(above);
+        let heights = each(q, |q| self.height - self.lean * q);
+        let inside = each(heights, above);
         // Beyond the centre the force is zero.
         let share = |i: usize| if heights[i] < 0.0 { self.height / (self.height - heights[i]) } else { 1.0 };
-        let shares: [f64; L] = array::from_fn(share);
+        let shares: [f64; L] = lanes(share);
         rooted!(self.law, N => self.pull_inside::<N, L>(inside, shares))
     }
 
@@ -197,8 +196,8 @@ impl PartialSlip {
         inside: [f64; L],
         shares: [f64; L],
     ) -> [[f64; L]; 3] {
-        let roots = inside.map(root::<N>);
-        let mut means = roots.map(|y| mean_power::<N>(self.root, y));
+        let roots = each(inside, root::<N>);
+        let mut means = each(roots, |y| mean_power::<N>(self.root, y));
         let e = 2.0 + 1.0 / N as f64;
         let (mut forces, mut stiffness) = ([e; L], [e * (e - 1.0); L]);
         if self.law.terms.len() > 1 {
@@ -209,9 +208,9 @@ impl PartialSlip {
             }
         }
         [
-            array::from_fn(|i| self.gain * means[i] * shares[i]),
-            array::from_fn(|i| forces[i] * self.gain * roots[i] * inside[i]),
-            array::from_fn(|i| -stiffness[i] * self.gain * self.lean * roots[i]),
+            lanes(|i| self.gain * means[i] * shares[i]),
+            lanes(|i| forces[i] * self.gain * roots[i] * inside[i]),
+            lanes(|i| -stiffness[i] * self.gain * self.lean * roots[i]),
         ]
     }
 }

@@ -1,9 +1,9 @@
 //! Duration of a closed-form oscillation by numerical quadrature.
 
 use super::{Clock, Swing};
-use crate::quadrature::{self, Lanes};
+use crate::quadrature::{self, Lanes, each, lanes};
 use crate::sine::sine;
-use std::array;
+
 use std::f64::consts::PI;
 
 impl Swing<'_> {
@@ -13,20 +13,20 @@ impl Swing<'_> {
     pub(super) fn time_between(&mut self, from: f64, to: f64, allowed: f64, part: f64) -> (f64, bool) {
         let (span, mean) = if self.nears {
             // Near the centre M has a power 3/2 of the height; over the root of the remaining range the integrand is smooth.
-            let [start, end] = [from, to].map(|at| (self.to - at).max(0.0).sqrt());
+            let [start, end] = each([from, to], |at| (self.to - at).max(0.0).sqrt());
             let slowness = |shares: Lanes| {
-                let left = shares.map(|share| start + (end - start) * share);
-                let slowness = self.slowness(left.map(|left| self.to - left * left));
-                array::from_fn(|i| 2.0 * left[i] * slowness[i])
+                let left = each(shares, |share| start + (end - start) * share);
+                let slowness = self.slowness(each(left, |left| self.to - left * left));
+                lanes(|i| 2.0 * left[i] * slowness[i])
             };
             (start - end, quadrature::mean(allowed, part, slowness))
         } else if self.clock == Clock::Angle && from == 0.0 && to == PI {
             // Between two turning points the nodes are known in advance.
             let range = self.high - self.low;
-            let slowness = |shares: Lanes| self.angular(shares.map(|share| self.low + range * share));
+            let slowness = |shares: Lanes| self.angular(each(shares, |share| self.low + range * share));
             (PI, quadrature::mean_over_arc(allowed, slowness))
         } else {
-            let slowness = |shares: Lanes| self.slowness(shares.map(|share| from + (to - from) * share));
+            let slowness = |shares: Lanes| self.slowness(each(shares, |share| from + (to - from) * share));
             (to - from, quadrature::mean(allowed, part, slowness))
         };
         // Each node evaluates the forces once.
@@ -38,17 +38,15 @@ impl Swing<'_> {
     #[inline(always)]
     pub(super) fn slowness<const N: usize>(&self, at: [f64; N]) -> [f64; N] {
         if self.clock == Clock::Way {
-            return self.speed_at(at).map(f64::recip);
+            return each(self.speed_at(at), f64::recip);
         }
-        let mut ways = [0.0; N];
-        (0..N).for_each(|i| ways[i] = self.swung(at[i]));
-        self.angular(ways)
+        self.angular(each(at, |at| self.swung(at)))
     }
 
     /// Returns the integrand dt/dθ at displacement q, s.
     #[inline(always)]
     fn angular<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
-        self.stiffness(ways).map(|stiffness| (0.5 / stiffness).sqrt())
+        each(self.stiffness(ways), |stiffness| (0.5 / stiffness).sqrt())
     }
 
     /// Returns the displacement q for a value of the integration variable, m.
@@ -70,12 +68,12 @@ impl Swing<'_> {
     pub(super) fn speed_at<const N: usize>(&self, ways: [f64; N]) -> [f64; N] {
         if self.clock == Clock::Way {
             let ([mean, ..], speed) = (self.force(ways), self.speed());
-            return array::from_fn(|i| (speed * speed + 2.0 * ways[i] * mean[i]).sqrt());
+            return lanes(|i| (speed * speed + 2.0 * ways[i] * mean[i]).sqrt());
         }
         // ν² as a product vanishes exactly at the turning points.
         let stiffness = self.stiffness(ways);
         let inside = |q: f64| (q - self.low).max(0.0) * (self.high - q).max(0.0);
-        array::from_fn(|i| (2.0 * inside(ways[i]) * stiffness[i]).sqrt())
+        lanes(|i| (2.0 * inside(ways[i]) * stiffness[i]).sqrt())
     }
 
     /// Returns the angle θ at displacement q, 0 to π.

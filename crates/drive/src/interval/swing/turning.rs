@@ -4,7 +4,7 @@
 //! evaluation, so Halley's method of third order costs no more than Newton's.
 
 use super::Swing;
-use std::array;
+use crate::quadrature::lanes;
 
 /// Largest number of Halley steps to a turning point.
 const HALLEY: usize = 30;
@@ -22,13 +22,13 @@ impl Swing<'_> {
             self.evaluations += 2;
             let [mean, force, bend] = self.force(q);
             // Both zeros together allow parallel execution.
-            let step: [f64; 2] = array::from_fn(|i| {
+            let step: [f64; 2] = lanes(|i| {
                 let left = speed * speed + 2.0 * q[i] * mean[i];
                 let step = 2.0 * left * force[i] / (4.0 * force[i] * force[i] - left * bend[i]);
                 // If b still accelerates, the step would lead to the other turning point.
                 if force[i] * guesses[i] > 0.0 { -q[i] } else { step }
             });
-            q = array::from_fn(|i| q[i] - step[i]);
+            q = lanes(|i| q[i] - step[i]);
             // The remaining error is of third order.
             if (0..2).all(|i| step[i].abs() <= self.last * q[i].abs()) {
                 return (0..2).all(|i| force[i] * guesses[i] <= 0.0).then_some(q);

@@ -40,7 +40,7 @@ struct Search<'r, 'e, A> {
     /// Whether the step has been cut. The slopes at its end are then unknown.
     is_cut: bool,
     /// Motions of the current contact inside the step that have already been computed.
-    seen: ArrayVec<Seen, { LOOKS.len() + side::EARLY.len() }>,
+    seen: ArrayVec<Seen, { side::SHARES.len() }>,
 }
 
 /// Motion of a contact at a fraction of the step.
@@ -146,12 +146,12 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
     fn is_far(&self, steady: &Closed<'_>, third: f64) -> bool {
         let (from, to) = (&self.from[steady.index], &self.to[steady.index]);
         let sense = steady.sense();
-        let speeds = [sense * from.motion.du, sense * to.motion.du];
+        let (first, last) = (sense * from.motion.du, sense * to.motion.du);
         let turns = third * sense;
-        let between = [speeds[0] + turns * from.second.1, speeds[1] - turns * to.second.1];
-        let slowest = speeds.into_iter().chain(between).fold(f64::INFINITY, f64::min);
+        let between = (first + turns * from.second.1).min(last - turns * to.second.1);
+        let slowest = first.min(last).min(between);
         let (_, close) = Guard::Piece.bands(steady.contact, self.tolerance, from.motion.u);
-        slowest > (DIPS_TO * speeds[0].min(speeds[1])).max(close * steady.contact.natural.frequency)
+        slowest > (DIPS_TO * first.min(last)).max(close * steady.contact.natural.frequency)
             && steady.margin(to.motion.u) > close
     }
 

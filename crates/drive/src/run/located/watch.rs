@@ -178,17 +178,20 @@ impl Watch {
         let falls = |value: f64, rate: f64| {
             if value > 0.0 && rate < 0.0 { -value / rate } else { f64::INFINITY }
         };
-        let closed = interval.closed.iter().map(|steady| {
+        let mut soonest = f64::INFINITY;
+        for steady in &interval.closed {
             let Moving { motion, second: (_, pull) } = &self.from[steady.index];
-            falls(steady.guard(Guard::Drag, motion), steady.guard_rate(Guard::Drag, motion, *pull))
-        });
-        let open = interval.others.iter().flat_map(|&c| {
+            let value = steady.guard(Guard::Drag, motion);
+            soonest = soonest.min(falls(value, steady.guard_rate(Guard::Drag, motion, *pull)));
+        }
+        for &c in &interval.others {
             let (contact, law, Moving { motion, second }) = (&eq.model.contacts[c], eq.law(c), &self.from[c]);
-            law.1.edges().iter().map(move |guard| {
-                falls(guard.value(contact, law, motion), guard.rate(contact, law.1, motion, *second))
-            })
-        });
-        closed.chain(open).fold(f64::INFINITY, f64::min)
+            for guard in law.1.edges() {
+                let value = guard.value(contact, law, motion);
+                soonest = soonest.min(falls(value, guard.rate(contact, law.1, motion, *second)));
+            }
+        }
+        soonest
     }
 
     /// Returns the contact with a closed-form force that is expected to reach the end of its memory piece first, and the time.

@@ -2,15 +2,15 @@
 //!
 //! This distance is no polynomial, because the curve has breakpoints. With the dense output, values and rates cost little.
 
-use super::{LOOKS, Search};
+use super::Search;
 use crate::contact::{Contact, Motion};
 use crate::equations::Equations;
 use crate::run::located::watched::Watched;
 use stickslip_contact::Guard;
 use stickslip_stepper::{Attempt, Completion};
 
-/// Fractions of a step, near its start, at which the distance is checked before the fractions [`LOOKS`].
-pub(super) const EARLY: [f64; 3] = [0.03125, 0.0625, 0.125];
+/// Fractions of a step at which the distance is checked: closer near its start.
+pub(super) const SHARES: [f64; 7] = [0.03125, 0.0625, 0.125, 0.25, 0.5, 0.75, 1.0];
 /// Largest number of tangent constructions in the search for one minimum.
 const DIPS: usize = 8;
 
@@ -49,7 +49,7 @@ impl<'e, A: for<'q> Attempt<Equations<'q>>> Search<'_, 'e, A> {
         let (begin, end) = (self.from[index].motion, self.to[index].motion);
         self.solver.complete(self.eq, Completion::Dense);
         let mut before = tangent(t0, &begin);
-        for share in EARLY.into_iter().chain(LOOKS).chain([1.0]) {
+        for share in SHARES {
             let (t, motion) = if share < 1.0 { self.motion_at(index, contact, share) } else { (t1, end) };
             let after = tangent(t, &motion);
             if after.y < 0.0 && self.has_fallen(watched, after.y) {
