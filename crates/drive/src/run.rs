@@ -2,6 +2,7 @@
 //!
 //! [`run`] simulates to the end of a plan; a [`Run`] advances on request.
 
+mod advance;
 mod bounds;
 mod chords;
 mod fixed;

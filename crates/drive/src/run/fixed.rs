@@ -2,6 +2,7 @@
 //!
 //! Events reduce the order of accuracy to at most two. The number of evaluations of a run is known in advance.
 
+use super::advance::Advance;
 use super::chords::Chords;
 use super::horizon::{Goal, Progress};
 use super::output::Opening;
@@ -60,6 +61,68 @@ pub(super) struct Fixed<'a, F> {
     counted: u64,
 }
 
+impl<F: FixedStep + for<'e> Stepping<Equations<'e>> + Send> Advance for Fixed<'_, F> {
+    fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
+        match &state.underway {
+            Some(Underway::Fixed(way)) if way.stepper == self.name && way.grid.step == self.grid.step => {
+                self.grid = way.grid;
+                self.stepper.keep(&way.slopes);
+            }
+            _ => {
+                self.grid.start = state.t;
+                state.underway = None;
+            }
+        }
+        self.chords.set_out(state, opening, record);
+    }
+
+    fn go(&mut self, state: &mut State, goal: Goal, record: &mut dyn Record) -> Result<(), RunError> {
+        self.chords.aim(goal);
+        let mut outcome = self.chords.bounds.tried(state).map(drop);
+        while self.goes_on(state) && outcome.is_ok() {
+            match self.step(state, record) {
+                Ok(Progress::Made) => {}
+                Ok(Progress::Short) => break,
+                Err(error) => outcome = Err(error),
+            }
+        }
+        // Inputs take up the piece supplied in advance, so that the caller can supply another one.
+        let turned = match &outcome {
+            _ if self.chords.crossing => Ok(state.take_supplied()),
+            Ok(()) => self.chords.turn(state, record),
+            Err(_) => Ok(false),
+        };
+        if turned.unwrap_or_else(|error| {
+            outcome = Err(error);
+            false
+        }) {
+            self.stepper.restart();
+        }
+        self.put_down(state);
+        outcome
+    }
+
+    fn write_now(&mut self, state: &State, record: &mut dyn Record) {
+        self.chords.write_now(state, record);
+    }
+
+    fn hand_over(&mut self, record: &mut dyn Record) {
+        self.chords.output.marks.hand_over(record);
+    }
+
+    fn touched(&self) -> u64 {
+        self.chords.touched()
+    }
+
+    fn remembers(&self) -> usize {
+        self.chords.remembers()
+    }
+
+    fn settle_books(&mut self, state: &mut State) {
+        self.chords.settle(state);
+    }
+}
+
 impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
     /// Creates the run. `moved` selects the components that the method integrates.
     ///
@@ -90,80 +153,6 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
             counted: 0,
             chords,
         })
-    }
-
-    /// Starts or continues the run from a state.
-    pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
-        match &state.underway {
-            Some(Underway::Fixed(way)) if way.stepper == self.name && way.grid.step == self.grid.step => {
-                self.grid = way.grid;
-                self.stepper.keep(&way.slopes);
-            }
-            _ => {
-                self.grid.start = state.t;
-                state.underway = None;
-            }
-        }
-        self.chords.set_out(state, opening, record);
-    }
-
-    /// Advances the state to a goal and saves in it everything that the next step depends on.
-    ///
-    /// Fails as [`Chords::accept`] does.
-    pub(super) fn go(
-        &mut self,
-        state: &mut State,
-        goal: Goal,
-        record: &mut dyn Record,
-    ) -> Result<(), RunError> {
-        self.chords.aim(goal);
-        let mut outcome = self.chords.bounds.tried(state).map(drop);
-        while self.goes_on(state) && outcome.is_ok() {
-            match self.step(state, record) {
-                Ok(Progress::Made) => {}
-                Ok(Progress::Short) => break,
-                Err(error) => outcome = Err(error),
-            }
-        }
-        // Inputs take up the piece supplied in advance, so that the caller can supply another one.
-        let turned = match &outcome {
-            _ if self.chords.crossing => Ok(state.take_supplied()),
-            Ok(()) => self.chords.turn(state, record),
-            Err(_) => Ok(false),
-        };
-        if turned.unwrap_or_else(|error| {
-            outcome = Err(error);
-            false
-        }) {
-            self.stepper.restart();
-        }
-        self.put_down(state);
-        outcome
-    }
-
-    /// Writes the current state as a row.
-    pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
-        self.chords.write_now(state, record);
-    }
-
-    /// Passes the extents of the watched bodies to the record.
-    pub(super) fn hand_over(&mut self, record: &mut dyn Record) {
-        self.chords.output.marks.hand_over(record);
-    }
-
-    /// Returns the number of reversals added to or removed from slip memories.
-    pub(super) fn touched(&self) -> u64 {
-        self.chords.touched()
-    }
-
-    /// Returns the largest number of reversals that a slip memory keeps.
-    pub(super) fn remembers(&self) -> usize {
-        self.chords.remembers()
-    }
-
-    /// Commits the slip memories of contacts that keep to a branch. All others are at the current state after every step.
-    pub(super) fn settle_books(&mut self, state: &mut State) {
-        self.chords.settle(state);
     }
 
     /// Returns the rounding error of grid times near t, s. Callers may compute frame times by another product.

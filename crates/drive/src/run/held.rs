@@ -1,8 +1,9 @@
 //! Run that its caller advances.
 
+use super::advance::Advance;
 use super::fixed::{Fixed, Frame, Moved};
 use super::horizon::Goal;
-use super::located::LocatedRun;
+use super::located::located;
 use super::output::Opening;
 use crate::method::{self, Method, SceneTraits};
 use crate::record::{Entry, Record, Wants};
@@ -20,54 +21,47 @@ pub struct Run<'m> {
     model: &'m Model,
     plan: Plan,
     state: State,
-    way: Way<'m>,
+    way: Box<dyn Advance + 'm>,
     /// Whether an earlier run has written the output up to the state.
     resumed: bool,
     /// Whether the first call has been made.
     begun: bool,
 }
 
-/// Workspace of a run, by stepper.
-enum Way<'m> {
-    Located(LocatedRun<'m>),
-    Verlet(Box<Fixed<'m, Verlet>>),
-    Rk4(Box<Fixed<'m, Rk4>>),
-    Nystrom(Box<Fixed<'m, Nystrom4>>),
-}
-
-impl<'m> Way<'m> {
-    fn new(model: &'m Model, plan: &Plan) -> Result<Self, RunError> {
-        let one = |step| Frame { length: step, steps: 1.0 };
-        Ok(match model.effective(plan.stepper) {
-            Stepper::Event { tolerance } => Self::Located(LocatedRun::new(model, plan, tolerance)),
-            Stepper::Verlet { step } => {
-                Self::Verlet(Box::new(Fixed::new(model, plan, one(step), Moved::All)?))
-            }
-            Stepper::Rk4 { step } => Self::Rk4(Box::new(Fixed::new(model, plan, one(step), Moved::All)?)),
-            Stepper::Frames { length, accuracy } => {
-                let frame = Frame { length, steps: model.substeps(length, accuracy) };
-                match method::stepping(&SceneTraits::of(model)).0 {
-                    Method::Nystrom => {
-                        Self::Nystrom(Box::new(Fixed::new(model, plan, frame, Moved::WithoutDamping)?))
-                    }
-                    _ => Self::Rk4(Box::new(Fixed::new(model, plan, frame, Moved::All)?)),
+/// Returns the workspace of a run with the stepper of its plan.
+fn advance<'m>(model: &'m Model, plan: &Plan) -> Result<Box<dyn Advance + 'm>, RunError> {
+    let one = |step| Frame { length: step, steps: 1.0 };
+    Ok(match model.effective(plan.stepper) {
+        Stepper::Event { tolerance } => located(model, plan, tolerance),
+        Stepper::Verlet { step } => Box::new(Fixed::<Verlet>::new(model, plan, one(step), Moved::All)?),
+        Stepper::Rk4 { step } => Box::new(Fixed::<Rk4>::new(model, plan, one(step), Moved::All)?),
+        Stepper::Frames { length, accuracy } => {
+            let frame = Frame { length, steps: model.substeps(length, accuracy) };
+            match method::stepping(&SceneTraits::of(model)).0 {
+                Method::Nystrom => {
+                    Box::new(Fixed::<Nystrom4>::new(model, plan, frame, Moved::WithoutDamping)?)
                 }
+                _ => Box::new(Fixed::<Rk4>::new(model, plan, frame, Moved::All)?),
             }
-            Stepper::Dopri5 { .. } => return Err(RunError::NotHeld { stepper: plan.stepper.name() }),
-        })
-    }
+        }
+        Stepper::Dopri5 { .. } => return Err(RunError::NotHeld { stepper: plan.stepper.name() }),
+    })
 }
 
-/// Calls one method on the run, whatever its stepper.
-macro_rules! each {
-    ($way:expr, $run:ident => $call:expr) => {
-        match $way {
-            Way::Located($run) => $call,
-            Way::Verlet($run) => $call,
-            Way::Rk4($run) => $call,
-            Way::Nystrom($run) => $call,
-        }
-    };
+/// Starts or continues a run from a state.
+fn set_out(
+    way: &mut dyn Advance,
+    model: &Model,
+    state: &mut State,
+    opening: Opening,
+    record: &mut dyn Record,
+) {
+    // A copied or restored memory has no spare capacity. Each stepper limits the depth itself.
+    for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
+        memory.bound(&contact.interface, way.remembers());
+        memory.make_room();
+    }
+    way.set_out(state, opening, record);
 }
 
 /// Advances a state to the end of its plan.
@@ -77,49 +71,15 @@ pub(super) fn to_the_end(
     state: &mut State,
     record: &mut dyn Record,
 ) -> Result<(), RunError> {
-    let mut way = Way::new(model, plan)?;
+    let mut way = advance(model, plan)?;
     state.check_inputs(model, plan.duration)?;
-    way.set_out(model, state, Opening::Row, record);
+    set_out(&mut *way, model, state, Opening::Row, record);
     let outcome = way.go(state, Goal::End(plan.duration), record);
     if outcome.is_err() {
         way.write_now(state, record);
     }
-    way.settle(state);
+    way.settle_books(state);
     outcome
-}
-
-impl Way<'_> {
-    fn set_out(&mut self, model: &Model, state: &mut State, opening: Opening, record: &mut dyn Record) {
-        // A copied or restored memory has no spare capacity. Each stepper limits the depth itself.
-        let most = each!(self, run => run.remembers());
-        for (memory, contact) in state.memories.iter_mut().zip(&model.contacts) {
-            memory.bound(&contact.interface, most);
-            memory.make_room();
-        }
-        each!(self, run => run.set_out(state, opening, record));
-    }
-
-    fn go(&mut self, state: &mut State, goal: Goal, record: &mut dyn Record) -> Result<(), RunError> {
-        each!(self, run => run.go(state, goal, record))
-    }
-
-    fn write_now(&mut self, state: &mut State, record: &mut dyn Record) {
-        each!(self, run => run.write_now(state, record));
-    }
-
-    /// Passes the extents of the watched bodies since the last sample row to the record and resets them.
-    fn hand_over(&mut self, record: &mut dyn Record) {
-        each!(self, run => run.hand_over(record));
-    }
-
-    fn touched(&self) -> u64 {
-        each!(self, run => run.touched())
-    }
-
-    /// Commits all slip memories to the current state.
-    fn settle(&mut self, state: &mut State) {
-        each!(self, run => run.settle_books(state));
-    }
 }
 
 /// Record that keeps the first row of a run.
@@ -148,7 +108,7 @@ impl<'m> Run<'m> {
     /// Returns [`RunError::Unstable`] for a fixed step beyond the stability limit. Returns [`RunError::NotHeld`] for
     /// the stepper [`Stepper::Dopri5`].
     pub fn new(model: &'m Model, plan: &Plan, state: State) -> Result<Self, RunError> {
-        let way = Way::new(model, plan)?;
+        let way = advance(model, plan)?;
         Ok(Self { model, plan: *plan, state, way, resumed: false, begun: false })
     }
 
@@ -185,7 +145,6 @@ impl<'m> Run<'m> {
     }
 
     /// Advances the run by whole steps and stops before the step that would reach the end of the plan.
-    /// The output does not depend on the end of the plan. A later resumed run may have another end.
     /// The output does not depend on the end of the plan. A run resumed here may have another end.
     ///
     /// # Errors
@@ -207,7 +166,7 @@ impl<'m> Run<'m> {
         if outcome.is_err() {
             self.stop(record);
         } else {
-            self.way.settle(&mut self.state);
+            self.way.settle_books(&mut self.state);
         }
         outcome
     }
@@ -215,8 +174,8 @@ impl<'m> Run<'m> {
     /// Writes the current state as the last row and commits the slip memories. Does nothing before the first call.
     pub fn stop(&mut self, record: &mut dyn Record) {
         if self.begun {
-            self.way.write_now(&mut self.state, record);
-            self.way.settle(&mut self.state);
+            self.way.write_now(&self.state, record);
+            self.way.settle_books(&mut self.state);
         }
     }
 
@@ -286,12 +245,12 @@ impl<'m> Run<'m> {
             return self.state.write_row(self.model, row);
         }
         let mut state = self.state.clone();
-        if let Ok(mut way) = Way::new(self.model, &self.plan) {
+        if let Ok(mut way) = advance(self.model, &self.plan) {
             // The start of a run chooses contact laws, which the first row contains.
             row.clear();
-            way.set_out(self.model, &mut state, Opening::Row, &mut First(row));
+            set_out(&mut *way, self.model, &mut state, Opening::Row, &mut First(row));
             if row.is_empty() {
-                way.write_now(&mut state, &mut First(row));
+                way.write_now(&state, &mut First(row));
             }
         }
     }
@@ -306,7 +265,7 @@ impl<'m> Run<'m> {
         self.state.check_inputs(self.model, end)?;
         if !self.begun {
             let opening = if self.resumed { Opening::Resumed } else { opening };
-            self.way.set_out(self.model, &mut self.state, opening, record);
+            set_out(&mut *self.way, self.model, &mut self.state, opening, record);
             self.begun = true;
         }
         let outcome = self.way.go(&mut self.state, goal, record);

@@ -40,6 +40,7 @@ mod watched;
 mod whole;
 mod write;
 
+use super::advance::Advance;
 use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon, Progress};
 use super::ledger::Ledger;
@@ -51,7 +52,7 @@ use crate::model::Model;
 use crate::record::{Entry, Record};
 use crate::state::{Books, Detour, Gait, Layout, LocatedWay, State, Underway, Whereabouts};
 use crate::{Plan, RunError};
-pub(super) use method::{LocatedRun, Workspace};
+pub(super) use method::{Workspace, located};
 use motion::Motion;
 use path::FINEST_PIECES;
 use room::Room;
@@ -131,6 +132,75 @@ impl<'a> Setting<'a> {
     }
 }
 
+impl<A: for<'e> Attempt<Equations<'e>> + Send> Advance for Located<'_, A> {
+    fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
+        state.carry_over(self.setting.model, self.setting.layout);
+        self.forget();
+        self.output.set_out(state.t, record);
+        match state.underway.take() {
+            Some(Underway::Located(way)) if way.tolerance == self.setting.tolerance => {
+                self.take_up(state, &way);
+            }
+            // The tolerance has changed: motion and contact laws continue.
+            Some(Underway::Located(way)) => {
+                self.control.set_history(way.history);
+                self.begin(state, Laws::Kept);
+            }
+            Some(Underway::Fixed(_)) | None => self.begin(state, Laws::Chosen),
+        }
+        if opening.has_row(self.output.every, state.t) {
+            self.output.write_now(&self.setting.plain(state), state, record);
+        }
+        self.ledger.begin_telling(record);
+        let eq = self.setting.plain(state);
+        self.output.begin_looks(&eq, (self.setting.model, state), opening, record);
+        record.take(Entry::Enters(state));
+    }
+
+    fn go(&mut self, state: &mut State, goal: Goal, record: &mut dyn Record) -> Result<(), RunError> {
+        self.horizon.aim(goal);
+        // Only a run that ends at its goal has a last row.
+        let end = self.output.end_at(goal.last_row());
+        self.horizon.nearly = end.min(self.horizon.end);
+        let mut outcome = self.bounds.tried(state).and_then(|_| self.turn_due(state, record));
+        self.ledger.tell(record);
+        while state.t < self.horizon.limit() && outcome.is_ok() {
+            match self.step(state, record) {
+                Ok(Progress::Made) => {}
+                Ok(Progress::Short) => break,
+                Err(error) => outcome = Err(error),
+            }
+            self.ledger.tell(record);
+        }
+        self.put_down(state);
+        outcome
+    }
+
+    fn hand_over(&mut self, record: &mut dyn Record) {
+        self.output.marks.hand_over(record);
+    }
+
+    fn touched(&self) -> u64 {
+        self.ledger.touched
+    }
+
+    fn remembers(&self) -> usize {
+        Memory::DEFAULT_CAPACITY
+    }
+
+    fn settle_books(&mut self, state: &mut State) {
+        if self.ledger.booked.books == Books::Behind {
+            self.settle(state);
+            self.ledger.booked.books = Books::Current;
+        }
+        self.put_down(state);
+    }
+
+    fn write_now(&mut self, state: &State, record: &mut dyn Record) {
+        self.output.write_now(&self.setting.plain(state), state, record);
+    }
+}
+
 impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
     /// Creates the run. `order` is the order of the integrator for step control, `limits` are the limits of its steps.
     fn new(setting: Setting<'a>, plan: &Plan, solver: A, control: (u32, StepLimits)) -> Self {
@@ -170,31 +240,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         }
     }
 
-    /// Starts or continues the run from a state.
-    pub(super) fn set_out(&mut self, state: &mut State, opening: Opening, record: &mut dyn Record) {
-        state.carry_over(self.setting.model, self.setting.layout);
-        self.forget();
-        self.output.set_out(state.t, record);
-        match state.underway.take() {
-            Some(Underway::Located(way)) if way.tolerance == self.setting.tolerance => {
-                self.take_up(state, &way);
-            }
-            // The tolerance has changed: motion and contact laws continue.
-            Some(Underway::Located(way)) => {
-                self.control.set_history(way.history);
-                self.begin(state, Laws::Kept);
-            }
-            Some(Underway::Fixed(_)) | None => self.begin(state, Laws::Chosen),
-        }
-        if opening.has_row(self.output.every, state.t) {
-            self.output.write_now(&self.setting.plain(state), state, record);
-        }
-        self.ledger.begin_telling(record);
-        let eq = self.setting.plain(state);
-        self.output.begin_looks(&eq, (self.setting.model, state), opening, record);
-        record.take(Entry::Enters(state));
-    }
-
     /// Resets all data of the workspace that depend on an earlier state.
     fn forget(&mut self) {
         self.takeoff = None;
@@ -206,62 +251,6 @@ impl<'a, A: for<'e> Attempt<Equations<'e>>> Located<'a, A> {
         self.ledger.booked.books = Books::Current;
         // Abandoned attempts are not counted.
         self.output.evaluations = self.motion.solver.evaluations();
-    }
-
-    /// Advances the state to a goal and saves in it everything that the next step depends on.
-    ///
-    /// After an error the state is that of the last accepted step.
-    pub(super) fn go(
-        &mut self,
-        state: &mut State,
-        goal: Goal,
-        record: &mut dyn Record,
-    ) -> Result<(), RunError> {
-        self.horizon.aim(goal);
-        // Only a run that ends at its goal has a last row.
-        let end = self.output.end_at(goal.last_row());
-        self.horizon.nearly = end.min(self.horizon.end);
-        let mut outcome = self.bounds.tried(state).and_then(|_| self.turn_due(state, record));
-        self.ledger.tell(record);
-        while state.t < self.horizon.limit() && outcome.is_ok() {
-            match self.step(state, record) {
-                Ok(Progress::Made) => {}
-                Ok(Progress::Short) => break,
-                Err(error) => outcome = Err(error),
-            }
-            self.ledger.tell(record);
-        }
-        self.put_down(state);
-        outcome
-    }
-
-    /// Passes the extents of the watched bodies to the record.
-    pub(super) fn hand_over(&mut self, record: &mut dyn Record) {
-        self.output.marks.hand_over(record);
-    }
-
-    /// Returns the number of reversals added to or removed from slip memories.
-    pub(super) fn touched(&self) -> u64 {
-        self.ledger.touched
-    }
-
-    /// Returns the largest number of reversals that a slip memory keeps.
-    pub(super) fn remembers(&self) -> usize {
-        Memory::DEFAULT_CAPACITY
-    }
-
-    /// Commits the slip memories that wait for an event. Needed at the end of a run, where they may be read.
-    pub(super) fn settle_books(&mut self, state: &mut State) {
-        if self.ledger.booked.books == Books::Behind {
-            self.settle(state);
-            self.ledger.booked.books = Books::Current;
-        }
-        self.put_down(state);
-    }
-
-    /// Writes the current state as a row.
-    pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
-        self.output.write_now(&self.setting.plain(state), state, record);
     }
 
     /// Begins a run at a state. With [`Laws::Chosen`], contact laws and the first step length are chosen anew.

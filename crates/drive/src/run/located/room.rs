@@ -9,6 +9,7 @@ use crate::equations::Equations;
 use crate::interval::{Interval, Swing};
 use crate::model::Model;
 use crate::record::Record;
+use crate::run::advance::Advance;
 use crate::run::horizon::Goal;
 use crate::run::ledger::Ledger;
 use crate::run::output::{Opening, Output};
@@ -54,7 +55,7 @@ impl<A> Room<A> {
     }
 }
 
-impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
+impl<A: for<'e> Attempt<Equations<'e>> + Send> Room<A> {
     /// Runs a started state to the end of its plan, in existing storage if that has the same layout.
     pub(super) fn run(
         room: &mut Option<Self>,
@@ -72,7 +73,7 @@ impl<A: for<'e> Attempt<Equations<'e>>> Room<A> {
     }
 }
 
-impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
+impl<A: for<'e> Attempt<Equations<'e>> + Send> Located<'_, A> {
     /// Runs a state to the end of its plan.
     fn finish(&mut self, state: &mut State, plan: &Plan, record: &mut dyn Record) -> Result<(), RunError> {
         let model = self.setting.model;

@@ -1,6 +1,6 @@
 //! Tests of slip memories that commit at their own events only, and of the force kernel for many coordinates.
 
-use super::LocatedRun;
+use super::located;
 use crate::equations::Equations;
 use crate::interval::Interval;
 use crate::run::horizon::Goal;
@@ -79,7 +79,7 @@ fn chain(shape: Shape, (contacts, damping): (&[usize], f64)) -> Option<Scene> {
 fn run(model: &Model, all: bool) -> Option<(Vec<f64>, State, usize)> {
     let plan = PLAN;
     let mut state = model.start(&plan).ok()?;
-    let mut run = LocatedRun::new(model, &plan, TOLERANCE);
+    let mut run = located(model, &plan, TOLERANCE);
     run.set_out(&mut state, Opening::Row, &mut ());
     let (mut way, mut behind) = (Vec::new(), 0);
     while state.t < plan.duration {
@@ -170,7 +170,7 @@ fn forces_on_many_coordinates_are_those_of_the_general_equations() {
     for shape in [sawtooth(), sine()] {
         let Some(model) = tied(shape).and_then(|scene| Model::new(&scene).ok()) else { panic!("a scene") };
         let Ok(mut state) = model.start(&PLAN) else { panic!("a start") };
-        LocatedRun::new(&model, &PLAN, TOLERANCE).set_out(&mut state, Opening::Row, &mut ());
+        located(&model, &PLAN, TOLERANCE).set_out(&mut state, Opening::Row, &mut ());
         let n = model.free.len();
         for (i, y) in state.y.iter_mut().enumerate() {
             *y += ((7 * i + 3) % 11) as f64 * if i < n { 3e-9 } else { 2e-4 };

@@ -4,8 +4,9 @@ use super::Detour;
 use crate::component::{
     Block, Component, Input, Moment, Passage, Powers, Refused, SharedBlock, Standing, States,
 };
+use crate::run::advance::Advance;
 use crate::run::horizon::Goal;
-use crate::run::located::LocatedRun;
+use crate::run::located::method::generally;
 use crate::run::output::Opening;
 use crate::scene::{
     Body, Contact, ContactStart, Coordinate, EngineChoice, Named, Normal, NormalDamping, Point, Scene, Side,
@@ -135,14 +136,13 @@ fn run(model: &Model, whole: bool) -> Option<(f64, Vec<f64>)> {
     let stepper = Stepper::Event { tolerance: 1e-8 };
     let plan = Plan { duration: 3.1 * PERIOD, stepper, limits, every: None, until_steady: None };
     let (mut state, mut trace) = (model.start(&plan).ok()?, Trace::new(model));
-    let mut run = LocatedRun::new(model, &plan, 1e-8);
+    let mut run = generally(model, &plan, 1e-8);
     run.set_out(&mut state, Opening::Row, &mut trace);
     run.go(&mut state, Goal::Past(1e-9), &mut trace).ok()?;
     if whole {
-        let LocatedRun::General(located) = &mut run else { return None };
-        located.settle_books(&mut state);
-        located.detour = Some(Detour { end: f64::MAX, length: PERIOD / 64.0, step: 1e-4 * PERIOD });
-        located.take_whole(&mut state);
+        run.settle_books(&mut state);
+        run.detour = Some(Detour { end: f64::MAX, length: PERIOD / 64.0, step: 1e-4 * PERIOD });
+        run.take_whole(&mut state);
     }
     run.go(&mut state, Goal::End(plan.duration), &mut trace).ok()?;
     let own = trace.events().filter(|(event, _)| event.source == Source::Block(0));
