@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Step ωh divided by the square root of the accuracy, for constant normal loads.
 const STRIDE: f64 = 9.0;
 /// Step ωh divided by the square root of the accuracy, for varying normal loads: kinks then limit the accuracy of every step.
-const MOVING: f64 = 2.0;
+const MOVING: f64 = 3.0;
 /// Fraction of the longest stable step that is used.
 const STABLE: f64 = 0.5;
 /// Inverse coefficient of the local error of a fourth-order step for an exponential.
@@ -20,7 +20,7 @@ impl Model {
     ///
     /// The time step h is the smallest of these:
     ///
-    /// * h = 9 √accuracy/ω, because kinks of a contact's law inside a step cause a local error of (ωh)². With varying normal loads h = 2
+    /// * h = 9 √accuracy/ω, because kinks of a contact's law inside a step cause a local error of (ωh)². With varying normal loads h = 3
     ///   √accuracy/ω.
     /// * Half the longest stable time step.
     /// * h = (120 accuracy)^{1/5}/|λ|, for states of blocks and bodies on damped contacts, with the largest eigenvalue λ. The local error

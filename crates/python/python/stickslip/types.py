@@ -1579,7 +1579,7 @@ class Frames(TypedDict):
     accuracy: NotRequired[float]
     """Allowed error per stroke of the drive, as a share of the stroke, 1e-9 to 0.1; typical 1e-5 to 1e-3. A
     frame has as many steps as the fastest oscillation needs for this accuracy. Under a varying normal load, a
-    frame has 4.5 times as many steps. `stickslip info` shows the number of steps."""
+    frame has 3 times as many steps. `stickslip info` shows the number of steps."""
 
 
 class Limits(TypedDict):

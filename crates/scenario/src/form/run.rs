@@ -128,7 +128,7 @@ pub(crate) struct FramesForm {
     #[schemars(example = &"50 us", transform = above_zero)]
     pub(crate) length: Time,
     /// Allowed error per stroke of the drive, as a share of the stroke, 1e-9 to 0.1; typical 1e-5 to 1e-3. A frame has as many steps as the
-    /// fastest oscillation needs for this accuracy. Under a varying normal load, a frame has 4.5 times as many steps. `stickslip info`
+    /// fastest oscillation needs for this accuracy. Under a varying normal load, a frame has 3 times as many steps. `stickslip info`
     /// shows the number of steps.
     #[serde(default = "default_accuracy")]
     #[schemars(range(min = 1e-9, max = 0.1), example = 1e-3)]
