@@ -41,6 +41,8 @@ pub(crate) struct Interval<'a> {
     places: Vec<Option<usize>>,
     /// Motions of contacts without a closed-form force, laid out flat where prescribed motions permit it, by contact.
     pub(crate) levers: Vec<Option<Lever<'a, Sparse>>>,
+    /// Whether forces of contacts growing in full stick are states. Otherwise such contacts follow the full force law.
+    grows: bool,
     /// Properties of model and interval that determine the integration method.
     pub(crate) scene: SceneTraits,
     pub(crate) traits: IntervalTraits,
@@ -68,11 +70,17 @@ impl<'a> Interval<'a> {
             places: Vec::with_capacity(count),
             levers: Vec::with_capacity(count),
             pulls: Vec::with_capacity(count),
+            grows: true,
             scene: SceneTraits::of(model),
             traits: IntervalTraits::default(),
             slider: None,
             kernel: Kernel::of(model),
         }
+    }
+
+    /// Returns empty interval data for steps that follow the full force law where the indentation varies.
+    pub(crate) fn without_growth(model: &Model) -> Self {
+        Self { grows: false, ..Self::of(model) }
     }
 
     /// Reuses the allocated memory for another model.
@@ -82,7 +90,7 @@ impl<'a> Interval<'a> {
         [&mut self.others, &mut self.apart].into_iter().for_each(|list| list.clear());
         self.places.clear();
         self.levers.clear();
-        let kernel = self.kernel.renewed(model);
+        let kernel = Kernel::of(model);
         Self {
             kernel,
             scene: SceneTraits::of(model),
@@ -97,11 +105,12 @@ impl<'a> Interval<'a> {
         Interval {
             closed: emptied(self.closed),
             pulls: emptied(self.pulls),
-            kernel: self.kernel.emptied(),
+            kernel: Kernel::None,
             levers: emptied(self.levers),
             others: self.others,
             apart: self.apart,
             places: self.places,
+            grows: self.grows,
             scene: self.scene,
             traits: self.traits,
             slider: None,
@@ -226,7 +235,7 @@ impl<'a> Interval<'a> {
         // A single slider has an even shorter form.
         match self.slider {
             Some(_) => self.kernel.clear(),
-            None => self.kernel.lay_out((model, state), &self.closed, &self.others),
+            None => self.kernel.lay_out((model, state, self.grows), &self.closed, &self.others),
         }
     }
 

@@ -9,7 +9,7 @@ mod contacts;
 mod length;
 mod links;
 
-use super::{Closed, emptied};
+use super::Closed;
 use crate::equations::{Components, Equations, Positions, Sum, View};
 use crate::model::Model;
 use crate::state::State;
@@ -63,44 +63,15 @@ macro_rules! each {
 }
 
 impl<'a> Kernel<'a> {
-    /// Returns a kernel without forces, with memory for those of a model.
+    /// Returns a kernel without forces for a model.
     pub(super) fn of(model: &Model) -> Self {
         match rows(model) {
-            Some(1) => Self::One(Forces::of(model)),
-            Some(2) => Self::Two(Forces::of(model)),
-            Some(3) => Self::Three(Forces::of(model)),
-            Some(4) => Self::Four(Forces::of(model)),
-            Some(_) => Self::Many(Forces::of(model)),
+            Some(1) => Self::One(Forces::empty()),
+            Some(2) => Self::Two(Forces::empty()),
+            Some(3) => Self::Three(Forces::empty()),
+            Some(4) => Self::Four(Forces::empty()),
+            Some(_) => Self::Many(Forces::empty()),
             None => Self::None,
-        }
-    }
-
-    /// Returns the kernel for another model, in the same memory if that has the same rows.
-    pub(super) fn renewed(mut self, model: &Model) -> Self {
-        let fits = match &self {
-            Self::None => rows(model).is_none(),
-            Self::One(_) => rows(model) == Some(1),
-            Self::Two(_) => rows(model) == Some(2),
-            Self::Three(_) => rows(model) == Some(3),
-            Self::Four(_) => rows(model) == Some(4),
-            Self::Many(_) => rows(model).is_some_and(|free| free > 4),
-        };
-        if !fits {
-            return Self::of(model);
-        }
-        each!(&mut self, forces => forces.reserve(model), {});
-        self
-    }
-
-    /// Returns the allocated memory of the kernel, empty.
-    pub(super) fn emptied(self) -> Kernel<'static> {
-        match self {
-            Self::None => Kernel::None,
-            Self::One(forces) => Kernel::One(forces.emptied()),
-            Self::Two(forces) => Kernel::Two(forces.emptied()),
-            Self::Three(forces) => Kernel::Three(forces.emptied()),
-            Self::Four(forces) => Kernel::Four(forces.emptied()),
-            Self::Many(forces) => Kernel::Many(forces.emptied()),
         }
     }
 
@@ -109,14 +80,10 @@ impl<'a> Kernel<'a> {
         each!(self, forces => forces.clear(), {});
     }
 
-    /// Computes the forces of an interval, whose contacts `closed` have closed-form forces; `others` are pressed, too.
-    pub(super) fn lay_out(
-        &mut self,
-        (model, state): (&'a Model, &State),
-        closed: &[Closed<'a>],
-        others: &[usize],
-    ) {
-        each!(self, forces => forces.lay_out((model, state), closed, others), {});
+    /// Computes the forces of an interval, whose contacts `closed` have closed-form forces; `others` are pressed, too. The flag says whether
+    /// forces of contacts growing in full stick are states.
+    pub(super) fn lay_out(&mut self, of: (&'a Model, &State, bool), closed: &[Closed<'a>], others: &[usize]) {
+        each!(self, forces => forces.lay_out(of, closed, others), {});
     }
 
     /// Sets another branch of the slip memory for a contact, given by its index among those with a closed-form force.
@@ -159,30 +126,17 @@ fn rows(model: &Model) -> Option<usize> {
 }
 
 impl<'a, R: Row> Forces<'a, R> {
-    fn of(model: &Model) -> Self {
-        let (steady, moving, springs, ties) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (others, links) = (Vec::new(), Vec::new());
-        let mut forces =
-            Self { is_laid_out: false, steady, moving, springs, ties, is_general: false, others, links };
-        forces.reserve(model);
-        forces
-    }
-
-    fn reserve(&mut self, model: &Model) {
-        self.clear();
-        self.steady.reserve(model.contacts.len());
-        self.moving.reserve(model.contacts.len());
-        self.others.reserve(model.contacts.len());
-        self.springs.reserve(model.links.len());
-        self.ties.reserve(model.links.len());
-        self.links.reserve(model.links.len());
-    }
-
-    fn emptied(mut self) -> Forces<'static, R> {
-        self.clear();
-        let Self { springs, others, links, .. } = self;
-        let (steady, moving, ties) = (emptied(self.steady), emptied(self.moving), emptied(self.ties));
-        Forces { is_laid_out: false, steady, moving, springs, ties, is_general: false, others, links }
+    fn empty() -> Self {
+        Self {
+            is_laid_out: false,
+            steady: Vec::new(),
+            moving: Vec::new(),
+            springs: Vec::new(),
+            ties: Vec::new(),
+            is_general: false,
+            others: Vec::new(),
+            links: Vec::new(),
+        }
     }
 
     fn clear(&mut self) {
@@ -195,11 +149,23 @@ impl<'a, R: Row> Forces<'a, R> {
         self.links.clear();
     }
 
-    fn lay_out(&mut self, (model, state): (&'a Model, &State), closed: &[Closed<'a>], others: &[usize]) {
+    fn lay_out(
+        &mut self,
+        (model, state, grows): (&'a Model, &State, bool),
+        closed: &[Closed<'a>],
+        others: &[usize],
+    ) {
         self.clear();
+        // Room for any later interval: afterwards nothing is allocated.
+        self.steady.reserve(model.contacts.len());
+        self.moving.reserve(model.contacts.len());
+        self.others.reserve(model.contacts.len());
+        self.springs.reserve(model.links.len());
+        self.ties.reserve(model.links.len());
+        self.links.reserve(model.links.len());
         self.steady.extend(closed.iter().map(Steady::of));
         for &c in others {
-            match Moving::of(c, model, state) {
+            match Moving::of(c, model, state, grows) {
                 Some(moving) => self.moving.push(moving),
                 None => self.others.push(c),
             }

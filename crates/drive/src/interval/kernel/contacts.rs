@@ -52,6 +52,8 @@ pub(super) struct Moving<'a, R> {
 enum Form {
     Slip(Branch),
     Grow,
+    /// Full force law of the slip memory.
+    Whole,
 }
 
 impl<'a, R: Row> Steady<'a, R> {
@@ -119,13 +121,16 @@ impl<'a, R: Row> Lever<'a, R> {
 
 impl<'a, R: Row> Moving<'a, R> {
     /// Returns the contact under a law; `None` for laws that only the general equations have.
-    pub(super) fn of(index: usize, model: &'a Model, state: &State) -> Option<Self> {
+    pub(super) fn of(index: usize, model: &'a Model, state: &State, grows: bool) -> Option<Self> {
         let contact = &model.contacts[index];
         let straight = contact.goes_straight(&state.pieces);
         let layout = model.layout();
-        let slot = contact.slot.filter(|_| !straight);
+        let slot = contact.slot.filter(|_| grows && !straight);
         let slot = slot.map(|slot| [layout.friction(slot), layout.force(slot), layout.elastic(slot)]);
-        let form = Form::of(&state.modes[index], slot.is_some())?;
+        let form = match Form::of(&state.modes[index], slot.is_some()) {
+            None if !grows && state.modes[index].is_whole() && !contact.inert => Form::Whole,
+            form => form?,
+        };
         Some(Self { index, contact, lever: Lever::of(contact, model, state)?, form, slot })
     }
 
@@ -173,6 +178,7 @@ impl<'a, R: Row> Moving<'a, R> {
                 }
                 None => branch.force(law, d, u.value, reduced_force),
             },
+            Form::Whole => eq.memories[self.index].force(law, motion.apex()),
             // During growth, and where the branch does not apply, the memory computes the force.
             _ => self.ask((eq, y), &motion, extra),
         };

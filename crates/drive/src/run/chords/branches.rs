@@ -47,7 +47,7 @@ impl<'a> Branches<'a> {
     /// Creates the branches of a model.
     pub(super) fn of(model: &'a Model) -> Self {
         let room = || Vec::with_capacity(model.contacts.len());
-        Self { interval: Interval::of(model), current: false, ended: room(), due: room() }
+        Self { interval: Interval::without_growth(model), current: false, ended: room(), due: room() }
     }
 
     /// Returns the remaining length of the memory piece of contact `c`, m. [`Chords::glides`] uses the same value, bit by bit.
@@ -92,6 +92,11 @@ impl<'a> Chords<'a> {
             Some(branches) if branches.holds_all(self.model) => {
                 let closed = &branches.interval.closed;
                 motions.extend(closed.iter().map(|closed| closed.motion(t, |i| y[i], |i| y[n + i])));
+            }
+            Some(branches) if branches.current => {
+                let (eq, interval) = (self.equations(state), &branches.interval);
+                let contacts = self.model.contacts.iter();
+                motions.extend(contacts.map(|contact| interval.motion(&eq, contact.place, (t, y))));
             }
             _ => {
                 let eq = self.equations(state);
