@@ -155,7 +155,7 @@ pub(crate) fn fill(
         // Displacements count from the initial position; the state uses a shifted origin.
         row.extend([position + if let Binding::Free(i) = place { state.shifts[i] } else { 0.0 }, rate]);
     }
-    let books = energies(equations, state, t, y, &mut |part, books| match part {
+    let books = energies(equations, state, t, y, |part, books| match part {
         Part::Contact(c, contact, response) => {
             contact_columns(equations, state, (c, contact), &response, row);
         }
@@ -171,7 +171,7 @@ fn energies(
     state: &State,
     t: f64,
     y: &impl Fn(usize) -> f64,
-    each: &mut dyn FnMut(Part<'_>, &mut Books),
+    mut each: impl FnMut(Part<'_>, &mut Books),
 ) -> Books {
     let (model, layout) = (equations.model, equations.layout);
     // The work of constant forces follows from positions and has no integration error.
@@ -286,7 +286,7 @@ pub(crate) fn balance(
     row: &mut Vec<f64>,
 ) -> (f64, f64) {
     row.clear();
-    let books = energies(equations, state, t, y, &mut |contact, books| match contact {
+    let books = energies(equations, state, t, y, |part, books| match part {
         Part::Contact(..) => {}
         Part::Block(k) => books.elastic += equations.block_columns(k, t, y, row),
     });
