@@ -37,7 +37,7 @@ pub trait Record {
     }
 }
 
-/// Piece of a run's output. Rows have one value per [`Model::channels`].
+/// Piece of a run's output. Rows have one value per [`Model::channels`](crate::Model::channels).
 #[derive(Debug, Clone, Copy)]
 pub enum Entry<'a> {
     /// Row at the plan's interval, including the first and the last of the run.

@@ -114,8 +114,8 @@ impl<'m> Run<'m> {
 
     /// Creates a run that continues an earlier one.
     ///
-    /// Rows and snapshots ([`Record::look`]) up to the time of the state are not written again. A run created by [`Self::new`] continues
-    /// with the same bits, but begins with a row.
+    /// Rows and snapshots ([`Entry::Look`](crate::Entry::Look)) up to the time of the state are not written again. A run created by
+    /// [`Self::new`] continues with the same bits, but begins with a row.
     ///
     /// # Errors
     ///
