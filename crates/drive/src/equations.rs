@@ -13,7 +13,7 @@ mod sum;
 
 use crate::contact::{Contact, Motion, Press};
 pub(crate) use balance::Instant;
-pub(crate) use sum::{Components, Positions, Reading, Sum, View, accelerate};
+pub(crate) use sum::{Components, Positions, Reading, Sum, View, accelerate, constant_forces};
 
 use crate::interval::{Interval, Kernel, Pull};
 use crate::model::{Binding, BlockState, Measure};

@@ -90,7 +90,7 @@ impl<'a> Interval<'a> {
         [&mut self.others, &mut self.apart].into_iter().for_each(|list| list.clear());
         self.places.clear();
         self.levers.clear();
-        let kernel = Kernel::of(model);
+        let kernel = self.kernel.renewed(model);
         Self {
             kernel,
             scene: SceneTraits::of(model),
@@ -105,7 +105,7 @@ impl<'a> Interval<'a> {
         Interval {
             closed: emptied(self.closed),
             pulls: emptied(self.pulls),
-            kernel: Kernel::None,
+            kernel: self.kernel.emptied(),
             levers: emptied(self.levers),
             others: self.others,
             apart: self.apart,

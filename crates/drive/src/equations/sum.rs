@@ -79,12 +79,7 @@ impl<'a> Sum<'a> {
     /// Creates sums that contain gravity and constant loads; their work counts as potential energy, not as power.
     #[inline(always)]
     pub(crate) fn new(free: &[Free], dv: &'a mut [f64]) -> Self {
-        let (mut i, count) = (0, dv.len().min(free.len()));
-        // An iterator is inlined only if crates are optimised together.
-        while i < count {
-            dv[i] = free[i].force;
-            i += 1;
-        }
+        constant_forces(free, dv);
         Self { dv, input: 0.0, damping: 0.0 }
     }
 
@@ -105,6 +100,17 @@ impl<'a> Sum<'a> {
     pub(crate) fn along(&mut self, row: &impl Row, driven: f64, force: f64) {
         row.pull(self.dv, force);
         self.input -= force * driven;
+    }
+}
+
+/// Writes gravity and constant loads on the free coordinates.
+#[inline(always)]
+pub(crate) fn constant_forces(free: &[Free], dv: &mut [f64]) {
+    let (mut i, count) = (0, dv.len().min(free.len()));
+    // An iterator is inlined only if crates are optimised together.
+    while i < count {
+        dv[i] = free[i].force;
+        i += 1;
     }
 }
 

@@ -9,7 +9,7 @@ mod contacts;
 mod length;
 mod links;
 
-use super::Closed;
+use super::{Closed, emptied};
 use crate::equations::{Components, Equations, Positions, Sum, View};
 use crate::model::Model;
 use crate::state::State;
@@ -18,6 +18,7 @@ use contacts::{Moving, Steady};
 use length::Dense;
 pub(crate) use length::{Row, Sparse};
 use links::{Spring, Tie};
+use std::mem::discriminant;
 use stickslip_contact::{FixedDepthBranch, Law};
 
 /// Precomputed forces of the time interval between two events. Scratch memory, rebuilt after each event.
@@ -42,7 +43,7 @@ pub(crate) struct Forces<'a, R> {
     moving: Vec<Moving<'a, R>>,
     springs: Vec<Spring<R>>,
     ties: Vec<Tie<'a, R>>,
-    /// Contacts and links that use the general equations, and whether there are any.
+    /// Contacts and links that use the general equations, and whether there are any or varying loads.
     is_general: bool,
     others: Vec<usize>,
     links: Vec<usize>,
@@ -72,6 +73,24 @@ impl<'a> Kernel<'a> {
             Some(4) => Self::Four(Forces::empty()),
             Some(_) => Self::Many(Forces::empty()),
             None => Self::None,
+        }
+    }
+
+    /// Returns the kernel for another model, in the same memory if that has the same rows.
+    pub(super) fn renewed(self, model: &Model) -> Self {
+        let other = Self::of(model);
+        if discriminant(&self) == discriminant(&other) { self } else { other }
+    }
+
+    /// Returns the allocated memory of the kernel, empty.
+    pub(super) fn emptied(self) -> Kernel<'static> {
+        match self {
+            Self::None => Kernel::None,
+            Self::One(forces) => Kernel::One(forces.emptied()),
+            Self::Two(forces) => Kernel::Two(forces.emptied()),
+            Self::Three(forces) => Kernel::Three(forces.emptied()),
+            Self::Four(forces) => Kernel::Four(forces.emptied()),
+            Self::Many(forces) => Kernel::Many(forces.emptied()),
         }
     }
 
@@ -105,7 +124,10 @@ impl<'a> Kernel<'a> {
     /// Writes the slopes of all components, as [`Equations::slopes`](stickslip_stepper::System::slopes).
     #[inline(always)]
     pub(crate) fn slopes(&self, eq: &Equations<'_>, t: f64, y: &[f64], dy: &mut [f64]) {
-        each!(self, forces => Forces::slopes(eq, t, y, dy, forces), {});
+        each!(self, forces => match forces.moving.is_empty() {
+            true => Forces::slopes::<false>(eq, t, y, dy, forces),
+            false => Forces::slopes::<true>(eq, t, y, dy, forces),
+        }, {});
     }
 
     /// Writes accelerations, computed without velocities, and the input power.
@@ -137,6 +159,20 @@ impl<'a, R: Row> Forces<'a, R> {
             others: Vec::new(),
             links: Vec::new(),
         }
+    }
+
+    fn emptied(self) -> Forces<'static, R> {
+        let mut forces = Forces {
+            steady: emptied(self.steady),
+            moving: emptied(self.moving),
+            springs: self.springs,
+            ties: emptied(self.ties),
+            others: self.others,
+            links: self.links,
+            ..Forces::empty()
+        };
+        forces.clear();
+        forces
     }
 
     fn clear(&mut self) {
@@ -178,7 +214,7 @@ impl<'a, R: Row> Forces<'a, R> {
                 (None, None) => self.links.push(k),
             }
         }
-        self.is_general = !self.others.is_empty() || !self.links.is_empty();
+        self.is_general = !self.others.is_empty() || !self.links.is_empty() || !model.loads.is_empty();
         self.is_laid_out = true;
     }
 
@@ -186,9 +222,10 @@ impl<'a, R: Row> Forces<'a, R> {
         self.moving.iter_mut().find(|moving| moving.index == c).is_some_and(|moving| moving.renew(law))
     }
 
+    /// `MOVING` says whether any contact is of this kind, whose law needs all registers.
     // The order of the arguments avoids moves between registers at the call.
     #[inline(never)]
-    fn slopes(eq: &Equations<'_>, t: f64, y: &[f64], dy: &mut [f64], forces: &Self) {
+    fn slopes<const MOVING: bool>(eq: &Equations<'_>, t: f64, y: &[f64], dy: &mut [f64], forces: &Self) {
         // A constant for few coordinates: all lengths below are then constants, too.
         let n = R::COUNT.unwrap_or(eq.layout.free);
         let (x, v) = (&y[..n], &y[n..2 * n]);
@@ -202,13 +239,15 @@ impl<'a, R: Row> Forces<'a, R> {
             for steady in &forces.steady {
                 steady.act(t, x, &mut sum);
             }
-            for moving in &forces.moving {
-                moving.act((eq, y), t, (x, v), (&mut sum, extra));
+            if MOVING {
+                for moving in &forces.moving {
+                    moving.act((eq, y), t, (x, v), (&mut sum, extra));
+                }
             }
             forces.act_on_links(t, (x, Some(v)), &mut sum);
             [sum.input, sum.damping]
         });
-        if forces.is_general || !eq.model.loads.is_empty() {
+        if forces.is_general {
             let mut sum = Sum { dv, input: powers[0], damping: powers[1] };
             forces.act_generally(eq, &Components { t, y: |i: usize| y[i] }, &mut sum, extra);
             eq.loads(t, v, &mut sum);

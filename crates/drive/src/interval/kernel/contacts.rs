@@ -70,8 +70,12 @@ impl<'a, R: Row> Steady<'a, R> {
 
     #[inline(always)]
     pub(super) fn act(&self, t: f64, x: &[f64], sum: &mut Sum<'_>) {
-        let u = self.u.at(t, x, None);
-        sum.along(&self.u.row, u.driven, -self.count * self.branch.force(self.profile, u.value));
+        let followed = self.u.followed.at(t);
+        let force = self
+            .u
+            .row
+            .act(x, sum.dv, |own| -self.count * self.branch.force(self.profile, own + followed.value));
+        sum.input -= force * followed.rate;
     }
 }
 

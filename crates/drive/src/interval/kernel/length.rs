@@ -1,6 +1,6 @@
 //! Displacements between bodies, laid out flat: coordinates, coefficients and prescribed motion.
 
-use crate::equations::{Reading, Sum, accelerate};
+use crate::equations::{Reading, Sum, accelerate, constant_forces};
 use crate::interval::Followed;
 use crate::model::{Measure, Model, Terms};
 use crate::state::State;
@@ -14,6 +14,13 @@ pub(crate) trait Row: Copy {
     fn dot(&self, x: &[f64]) -> f64;
     /// Adds a force along the form to the forces on the coordinates.
     fn pull(&self, forces: &mut [f64], force: f64);
+    /// Adds a force along the form that is a function of its value, and returns it.
+    #[inline(always)]
+    fn act(&self, x: &[f64], forces: &mut [f64], force: impl FnOnce(f64) -> f64) -> f64 {
+        let force = force(self.dot(x));
+        self.pull(forces, force);
+        force
+    }
     /// Calls `add` with sums that contain the constant forces, and writes the forces into `dv`.
     fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T;
     /// Converts the forces on the coordinates to accelerations.
@@ -78,7 +85,10 @@ impl<const N: usize> Row for Dense<N> {
     fn summed<T>(model: &Model, dv: &mut [f64], add: impl FnOnce(Sum<'_>) -> T) -> T {
         // Few sums stay in registers. A second call of `add` would keep it from being inlined.
         let mut forces = [0.0; N];
-        let told = add(Sum::new(&model.free, &mut forces));
+        if let Some(free) = model.free.first_chunk::<N>() {
+            constant_forces(free, &mut forces);
+        }
+        let told = add(Sum { dv: &mut forces, input: 0.0, damping: 0.0 });
         if let Some(dv) = dv.first_chunk_mut::<N>() {
             *dv = forces;
         }
@@ -123,6 +133,29 @@ impl Row for Sparse {
                 add(other);
             }
             Self::Four(ends) => ends.iter().for_each(add),
+        }
+    }
+
+    // One choice of the kind for value and force.
+    #[inline(always)]
+    fn act(&self, x: &[f64], forces: &mut [f64], force: impl FnOnce(f64) -> f64) -> f64 {
+        match self {
+            Self::One(end) => {
+                let force = force(end.arm * x[end.at]);
+                forces[end.at] += end.arm * force;
+                force
+            }
+            Self::Two([one, other]) => {
+                let force = force(one.arm * x[one.at] + other.arm * x[other.at]);
+                forces[one.at] += one.arm * force;
+                forces[other.at] += other.arm * force;
+                force
+            }
+            Self::Four(_) => {
+                let force = force(self.dot(x));
+                self.pull(forces, force);
+                force
+            }
         }
     }
 

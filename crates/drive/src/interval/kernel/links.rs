@@ -62,6 +62,6 @@ impl<R: Row> Spring<R> {
 
     #[inline(always)]
     pub(super) fn act(&self, x: &[f64], forces: &mut [f64]) {
-        self.row.pull(forces, self.stiffness * (self.rest - self.row.dot(x)) + self.preload);
+        self.row.act(x, forces, |length| self.stiffness * (self.rest - length) + self.preload);
     }
 }
