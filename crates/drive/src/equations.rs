@@ -17,13 +17,10 @@ pub(crate) use sum::{Components, Positions, Reading, Sum, View, accelerate, cons
 
 use crate::interval::{Interval, Kernel, Pull};
 use crate::model::{Binding, BlockState, Measure};
-use crate::state::{Generating, Layout, State};
+use crate::state::{Layout, State};
 use crate::{Model, Piece, Sample};
 use stickslip_contact::{Law, Memory};
 use stickslip_stepper::{Conservative, System};
-
-/// Relative tolerance for the end of a waveform's smooth piece, for steps that may cross corners.
-const CORNER_SLACK: f64 = 1e-9;
 
 /// Right-hand side of the equations of motion. The struct holds shared references only, so evaluation has no side effects.
 #[derive(Clone, Copy)]
@@ -31,25 +28,21 @@ pub(crate) struct Equations<'a> {
     pub(crate) model: &'a Model,
     /// Current smooth piece of each waveform.
     pub(crate) pieces: &'a [Piece],
-    /// State of each generated waveform; empty if no waveform is generated.
-    pub(crate) generators: &'a [Option<Generating>],
     /// Slip memories of the contacts at the last accepted step.
     pub(crate) memories: &'a [Memory],
     /// Present law of each contact.
     pub(crate) modes: &'a [Law],
     pub(crate) blocks: &'a [BlockState],
     pub(crate) layout: Layout,
-    /// Whether a step may cross corners of waveforms, as fixed steps do.
-    pub(crate) crossing: bool,
     /// Precomputed quantities that are constant until the next event.
     pub(crate) interval: Option<&'a Interval<'a>>,
 }
 
 impl<'a> Equations<'a> {
     /// Returns the equations for a state. `layout` may omit the state components of contacts that grow in full stick.
-    pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout, crossing: bool) -> Self {
-        let State { pieces, generators, memories, modes, blocks, .. } = state;
-        Self { model, pieces, generators, memories, modes, blocks, layout, crossing, interval: None }
+    pub(crate) fn on(model: &'a Model, state: &'a State, layout: Layout) -> Self {
+        let State { pieces, memories, modes, blocks, .. } = state;
+        Self { model, pieces, memories, modes, blocks, layout, interval: None }
     }
 }
 
@@ -62,27 +55,7 @@ impl<'a> Equations<'a> {
     /// Returns waveform `w` at time t; the value is exact within a smooth piece, including its end.
     #[inline(always)]
     pub(crate) fn sample(&self, w: usize, t: f64) -> Sample {
-        let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
-        if self.crossing {
-            return self.across(w, t);
-        }
-        waveform.sample(piece, t)
-    }
-
-    /// Returns waveform `w` for a step that may cross corners. Outside the present smooth piece, the right piece is searched.
-    #[inline(never)]
-    fn across(&self, w: usize, t: f64) -> Sample {
-        let (waveform, piece) = (&self.model.waveforms[w], &self.pieces[w]);
-        // A step aligned with a corner may miss it by rounding.
-        let slack = CORNER_SLACK * (piece.end - piece.start);
-        if t < piece.start - slack || t > piece.end + slack {
-            let beside = match self.generators.get(w) {
-                Some(Some(generating)) => generating.piece_at(t).unwrap_or(*piece),
-                _ => waveform.piece_at(t),
-            };
-            return waveform.sample(&beside, t);
-        }
-        waveform.sample(piece, t)
+        self.model.waveforms[w].sample(&self.pieces[w], t)
     }
 
     /// Returns a coordinate and its rate: m and m/s, or rad and rad/s.

@@ -58,7 +58,7 @@ impl Model {
         // After a jump the motion of a free mass depends on a step ending there.
         let jumps = !self.free.is_empty() && self.waveforms.iter().any(Waveform::has_jumps);
         let follows =
-            plan.stepper.locates_events() || plan.stepper.ends_at_corners() && self.balanced.is_empty();
+            plan.stepper.locates_events() || plan.stepper.follows_jumps() && self.balanced.is_empty();
         if jumps && !follows {
             return Err(SceneFault::UnlocatedJump.of(Place::Run, Field::Stepper));
         }
@@ -109,7 +109,7 @@ impl Model {
     }
 
     fn equations<'s>(&'s self, state: &'s State) -> Equations<'s> {
-        Equations::on(self, state, self.layout(), false)
+        Equations::on(self, state, self.layout())
     }
 }
 

@@ -232,10 +232,10 @@ impl<'a> Interval<'a> {
             }
             _ => None,
         };
-        // A single slider has an even shorter form.
+        // A single slider has an even shorter form, for methods that evaluate accelerations only.
         match self.slider {
-            Some(_) => self.kernel.clear(),
-            None => self.kernel.lay_out((model, state, self.grows), &self.closed, &self.others),
+            Some(_) if self.grows => self.kernel.clear(),
+            _ => self.kernel.lay_out((model, state, self.grows), &self.closed, &self.others),
         }
     }
 

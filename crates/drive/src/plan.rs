@@ -62,7 +62,8 @@ impl Plan {
 
 /// Stepper. Tolerances are relative to natural scales (u_c, μF_N and the corresponding velocities).
 ///
-/// With fixed steps or the reference method, contacts follow one straight path per step; under slip the order is at most 2.
+/// With fixed steps or the reference method, contacts follow one straight path per step; under slip the order is at most 2. Fixed steps end
+/// at corners and jumps of waveforms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stepper {
     /// Methods of order 8 and closed forms, with event location.
@@ -82,8 +83,8 @@ pub enum Stepper {
     },
     /// Frames (time intervals of fixed length) with a bounded number of Runge–Kutta steps of order 4, for real-time simulation.
     ///
-    /// Steps end at corners and jumps of waveforms. The number of reversals in a slip memory is limited. The number of steps in a frame is
-    /// a constant of the model: [`Model::substeps`](crate::Model::substeps).
+    /// The number of reversals in a slip memory is limited. The number of steps in a frame is a constant of the model:
+    /// [`Model::substeps`](crate::Model::substeps).
     Frames {
         /// Length of a frame, s.
         length: f64,
@@ -164,9 +165,9 @@ impl Stepper {
         self.facts().locates_events
     }
 
-    /// Whether steps of this stepper end at corners of waveforms, so that contacts follow a jump on a separate path.
-    pub fn ends_at_corners(self) -> bool {
-        self.locates_events() || matches!(self, Self::Frames { .. })
+    /// Whether contacts follow a jump of a waveform on a separate path.
+    pub fn follows_jumps(self) -> bool {
+        !matches!(self, Self::Dopri5 { .. })
     }
 
     /// Returns the stability limits of the stepper; none for adaptive steppers.

@@ -302,8 +302,8 @@ impl<'m> Section<'m> {
             }
         }
         for (c, contact) in model.contacts.iter().enumerate() {
-            let before = Equations::on(model, state, layout, false).motion(contact, state.t, |i| state.y[i]);
-            let after = Equations::on(model, &moved, layout, false).motion(contact, state.t, |i| moved.y[i]);
+            let before = Equations::on(model, state, layout).motion(contact, state.t, |i| state.y[i]);
+            let after = Equations::on(model, &moved, layout).motion(contact, state.t, |i| moved.y[i]);
             let numbers = self.unknowns.iter().zip(by).map(|(unknown, by)| (*unknown, *by));
             let gone = (after.d - before.d, after.u - before.u);
             moved.memories[c] = legs::moved(contact, &state.memories[c], gone, numbers)?;

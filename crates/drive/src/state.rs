@@ -293,7 +293,7 @@ impl State {
     /// Chooses the law of every block anew for the present pieces of the waveforms, without an event.
     pub(crate) fn choose_block_laws(&mut self, model: &Model, layout: Layout) {
         for k in 0..model.blocks.len() {
-            if let Some((_, law)) = Equations::on(model, self, layout, false).block_turn(k, self) {
+            if let Some((_, law)) = Equations::on(model, self, layout).block_turn(k, self) {
                 self.blocks[k].law = law;
             }
         }
@@ -316,7 +316,7 @@ impl State {
 
     /// Writes the present values of all channels into a row.
     pub fn write_row(&self, model: &Model, row: &mut Vec<f64>) {
-        let equations = Equations::on(model, self, self.layout(model), false);
+        let equations = Equations::on(model, self, self.layout(model));
         record::fill(&equations, self, self.t, &|i| self.y[i], row);
     }
 
@@ -342,7 +342,7 @@ impl State {
             Binding::Held(x) => (x, 0.0),
             Binding::Free(i) => (self.shifts[i] + self.y[i], self.y[model.layout().velocity(i)]),
             Binding::Driven(_) => {
-                let equations = Equations::on(model, self, self.layout(model), false);
+                let equations = Equations::on(model, self, self.layout(model));
                 let [value, rate] = equations.place(place, self.t, |i| self.y[i]);
                 (value, rate)
             }

@@ -81,22 +81,24 @@ impl<S: System + ?Sized> Stepping<S> for Verlet {
             system.slopes(t, &self.stage, &mut self.first);
             self.evaluations += 1;
         }
-        for ((to, y), k) in self.stage.iter_mut().zip(y.iter()).zip(&self.first) {
-            *to = y + h * k;
-        }
-        let half = 0.5 * h;
+        let (half, n, ahead) = (0.5 * h, self.positions, self.stage.len());
+        let total = y.len().min(self.first.len());
+        // Slices of equal lengths let the loops run without checks.
+        let (x, v) = y[..ahead].split_at(n);
+        let first_v = &self.first[n..ahead];
+        let (stage_x, stage_v) = self.stage.split_at_mut(n);
         // Velocities are those of the state: with the predicted velocities the energy of an undamped oscillator grows.
-        let motion = y.iter().zip(y.iter().zip(&self.first).skip(self.positions));
-        for (to, (x, (v, a))) in self.stage.iter_mut().zip(motion).take(self.positions) {
-            *to = x + h * (v + half * a);
+        for i in 0..n {
+            stage_x[i] = x[i] + h * (v[i] + half * first_v[i]);
+        }
+        for i in 0..ahead - n {
+            stage_v[i] = v[i] + h * first_v[i];
         }
         system.slopes(t + h, &self.stage, &mut self.last);
         self.evaluations += 1;
-        for ((y, a), b) in y.iter_mut().zip(&self.first).zip(&self.last).skip(self.positions) {
+        y[..n].copy_from_slice(&self.stage[..n]);
+        for ((y, a), b) in y[n..total].iter_mut().zip(&self.first[n..total]).zip(&self.last[n..total]) {
             *y += half * (a + b);
-        }
-        for (y, x) in y.iter_mut().zip(&self.stage).take(self.positions) {
-            *y = *x;
         }
         std::mem::swap(&mut self.first, &mut self.last);
         self.known = true;

@@ -19,7 +19,7 @@ impl Model {
         if self.balanced.is_empty() {
             return Ok(());
         }
-        let equations = Equations::on(self, state, self.layout(), false);
+        let equations = Equations::on(self, state, self.layout());
         if let Some((b, [load, limit])) = equations.overloaded(0.0, &|i| state.y[i]) {
             let (part, axis) = (Part::Body(self.balanced[b].body), self.balanced[b].axis);
             return Err(SceneFault::Unbalanced { axis, load, limit }.of(part, Field::Coordinate(axis)));

@@ -161,7 +161,7 @@ fn landings(scene: &Scene, (height, speed): (f64, f64), duration: f64) -> f64 {
 /// Very small oscillations do not count. Oscillations with amplitudes near u_c do not count either, because friction soon ends them.
 fn rings_from_start(Setup { scene, model, start }: Setup<'_>, c: usize, frequency: f64) -> bool {
     let (contact, layout) = (&model.contacts[c], model.layout());
-    let eq = Equations::on(model, start, layout, false);
+    let eq = Equations::on(model, start, layout);
     let mut slopes = vec![0.0; layout.total()];
     eq.slopes(0.0, &start.y[..layout.dimension()], &mut slopes);
     let rate = eq.motion(contact, 0.0, |i| start.y[i]).du;

@@ -163,7 +163,7 @@ impl Model {
     /// Returns the slip memory of a contact after a displacement `by`, in u_c, to its present position.
     fn dragged(&self, contact: &Contact, state: &State, by: f64) -> Memory {
         let (d, way) = (contact.natural.depth, by * contact.natural.displacement);
-        let equations = Equations::on(self, state, self.layout(), false);
+        let equations = Equations::on(self, state, self.layout());
         let u = equations.motion(contact, state.t, |i| state.y[i]).u;
         let mut memory = contact.engine.memory(&contact.interface, Apex { d, u: u - way });
         // If this is impossible, the memory stays in its initial state.

@@ -172,7 +172,7 @@ impl Model {
             return;
         }
         let state = self.rest();
-        let equations = Equations::on(self, &state, self.layout(), false);
+        let equations = Equations::on(self, &state, self.layout());
         let at = Instant { t: 0.0, y: &|i| state.y[i] };
         let places: Vec<f64> = (0..self.balanced.len()).map(|b| equations.place_value(b, &at)).collect();
         for (balanced, place) in self.balanced.iter_mut().zip(places) {

@@ -21,7 +21,7 @@ use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::Model;
-use crate::record::{Record, wants_events};
+use crate::record::Record;
 use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
 use branches::{Branches, GROWING_KNOTS, KNOTS};
@@ -42,10 +42,10 @@ pub(super) struct Chords<'a> {
     standings: Vec<ContactState>,
     /// Whether the record requested events at the last step.
     watched: bool,
-    /// Whether a step may cross waveform corners; otherwise steps end at corners.
-    pub(super) crossing: bool,
-    /// Branches of the force laws; only for the stepper [`Stepper::Frames`].
+    /// Branches of the force laws; none for an integrator that chooses its own steps.
     branches: Option<Branches<'a>>,
+    /// Whether steps end where branches end, as frames do.
+    cuts: bool,
     /// Motions of the contacts at the start of the step (`before`) and at its end (`motions`).
     before: Vec<Motion>,
     motions: Vec<Motion>,
@@ -67,11 +67,11 @@ impl<'a> Chords<'a> {
             senses: vec![0.0; model.contacts.len()],
             standings: vec![ContactState::Open; model.contacts.len()],
             watched: false,
-            crossing: !plan.stepper.ends_at_corners(),
             branches: match plan.stepper {
-                Stepper::Frames { .. } => Some(Branches::of(model)),
-                _ => None,
+                Stepper::Dopri5 { .. } => None,
+                _ => Some(Branches::of(model)),
             },
+            cuts: matches!(plan.stepper, Stepper::Frames { .. }),
             before: Vec::with_capacity(model.contacts.len()),
             motions: Vec::with_capacity(model.contacts.len()),
             last: Vec::with_capacity(layout.total()),
@@ -110,7 +110,7 @@ impl<'a> Chords<'a> {
             self.write_now(state, record);
         }
         self.ledger.begin_telling(record);
-        let eq = Equations::on(self.model, state, self.layout, self.crossing);
+        let eq = Equations::on(self.model, state, self.layout);
         self.output.begin_looks(&eq, (model, state), opening, record);
     }
 
@@ -138,10 +138,10 @@ impl<'a> Chords<'a> {
 
     /// Returns the largest number of reversals that a slip memory keeps.
     pub(super) fn remembers(&self) -> usize {
-        match &self.branches {
-            Some(_) if self.model.has_moving_normals() => GROWING_KNOTS,
-            Some(_) => KNOTS,
-            None => Memory::DEFAULT_CAPACITY,
+        match self.cuts {
+            true if self.model.has_moving_normals() => GROWING_KNOTS,
+            true => KNOTS,
+            false => Memory::DEFAULT_CAPACITY,
         }
     }
 
@@ -155,7 +155,7 @@ impl<'a> Chords<'a> {
     where
         'a: 's,
     {
-        Equations::on(self.model, state, self.layout, self.crossing)
+        Equations::on(self.model, state, self.layout)
     }
 
     /// Sets the goal of the run.
@@ -171,7 +171,7 @@ impl<'a> Chords<'a> {
 
     /// Writes the current state as a row.
     pub(super) fn write_now(&mut self, state: &State, record: &mut dyn Record) {
-        let eq = Equations::on(self.model, state, self.layout, self.crossing);
+        let eq = Equations::on(self.model, state, self.layout);
         self.output.write_now(&eq, state, record);
     }
 
@@ -228,13 +228,7 @@ impl<'a> Chords<'a> {
         (t, y): (f64, &[f64]),
         record: &mut dyn Record,
     ) -> Result<(), RunError> {
-        let was_watched = std::mem::replace(&mut self.watched, wants_events(record));
-        if self.watched && !was_watched && state.counts.steps > 0 {
-            // A record that begins to request events gets events from now on, not earlier changes.
-            for (c, memory) in state.memories.iter().enumerate() {
-                self.standings[c] = self.standing(c, memory, self.before.get(c));
-            }
-        }
+        self.watch(state, record);
         self.move_contacts(state, t, y);
         self.write_down(state, t - state.t);
         self.ledger.commit((self.model, self.layout), t, state)?;
@@ -268,7 +262,7 @@ impl<'a> Chords<'a> {
     /// Writes rows and snapshots up to time t in the step that ends at `to`.
     fn write(&mut self, state: &State, t: f64, to: (f64, &[f64]), record: &mut dyn Record) {
         if self.output.due(t) {
-            let eq = Equations::on(self.model, state, self.layout, self.crossing);
+            let eq = Equations::on(self.model, state, self.layout);
             let mut step = Between { from: (state.t, &state.y), to, free: self.layout.free };
             self.output.take((&eq, state), &mut step, (t, 0.0), record);
         }

@@ -9,7 +9,7 @@ use super::output::Opening;
 use crate::equations::Equations;
 use crate::record::Record;
 use crate::state::{FixedWay, Grid, Layout, State, Underway};
-use crate::{Model, Plan, RunError};
+use crate::{Accuracy, Model, Plan, RunError};
 use stickslip_stepper::{FixedStep, Stepping};
 
 /// Largest remainder of a time interval that is joined to a step because it results from rounding, as a fraction of the step.
@@ -88,7 +88,6 @@ impl<F: FixedStep + for<'e> Stepping<Equations<'e>> + Send> Advance for Fixed<'_
         }
         // Inputs take up the piece supplied in advance, so that the caller can supply another one.
         let turned = match &outcome {
-            _ if self.chords.crossing => Ok(state.take_supplied()),
             Ok(()) => self.chords.turn(state, record),
             Err(_) => Ok(false),
         };
@@ -129,10 +128,12 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
     /// Fails if the step reaches the stability limit of the model.
     pub(super) fn new(model: &'a Model, plan: &Plan, frame: Frame, moved: Moved) -> Result<Self, RunError> {
         let step = frame.length / frame.steps;
-        let limit = model.longest_step(plan.stepper).unwrap_or(f64::INFINITY);
-        // Beyond the limit the stiffest oscillation grows at every step.
-        if step >= limit {
-            return Err(RunError::Unstable { step, limit });
+        if let Accuracy::Step(step) = plan.stepper.accuracy() {
+            let limit = model.longest_step(plan.stepper).unwrap_or(f64::INFINITY);
+            // Beyond the limit the stiffest oscillation grows at every step.
+            if step >= limit {
+                return Err(RunError::Unstable { step, limit });
+            }
         }
         let chords = Chords::new(model, plan);
         let Layout { free, .. } = chords.layout;
@@ -163,8 +164,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
     /// Whether the goal is not yet reached. At a waveform corner, a distance within rounding counts as reached.
     fn goes_on(&self, state: &State) -> bool {
         let t = state.t;
-        let on_corner =
-            !self.chords.crossing && state.pieces.iter().any(|piece| piece.start == t || piece.end == t);
+        let on_corner = state.pieces.iter().any(|piece| piece.start == t || piece.end == t);
         // The end of a run always has a row.
         let limit = self.chords.horizon.limit();
         let slack = if on_corner && limit < self.chords.horizon.end { self.slack(t) } else { 0.0 };
@@ -178,20 +178,15 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         if self.chords.horizon.is_beyond(aim) {
             return Ok(Progress::Short);
         }
-        let crossing = self.chords.crossing;
-        let mut turned = !crossing && self.chords.turn(state, record)?;
-        let corner = if crossing { state.next_input(self.chords.model) } else { state.next_corner() };
+        if self.chords.turn(state, record)? {
+            // The stored slopes belong to the other side of the corner.
+            self.stepper.restart();
+        }
+        let corner = state.next_corner();
         let until = self.chords.horizon.until;
         // A frame that ends at a corner ends there to the last bit.
         let stop = if (until - corner).abs() <= slack { corner } else { until.min(corner) };
         let mut end = if aim > stop - slack { stop } else { aim };
-        if crossing {
-            turned = self.chords.enter(state, end);
-        }
-        if turned {
-            // The stored slopes belong to the other side of the corner.
-            self.stepper.restart();
-        }
         self.y.copy_from_slice(&state.y);
         let (before, is_due) = (self.chords.horizon.steps, self.chords.horizon.steps.due(end).is_some());
         let spent = self.stepper.evaluations();
@@ -206,6 +201,9 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
             return self.chords.bounds.step(state, record).map(|()| Progress::Made);
         }
         end = self.cut(state, end);
+        if self.chords.leaves(state, (end, &self.y)) {
+            self.repeat(state, end);
+        }
         if is_due {
             let goal = self.chords.horizon.end;
             self.chords.take_steps(state, end, &self.y);
@@ -243,10 +241,15 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         if cut >= end {
             return end;
         }
+        self.repeat(state, cut);
+        cut
+    }
+
+    /// Takes the step from the current state again, to `end`, s.
+    fn repeat(&mut self, state: &State, end: f64) {
         self.y.copy_from_slice(&state.y);
         self.stepper.restart();
-        self.attempt(state, cut);
-        cut
+        self.attempt(state, end);
     }
 
     /// Returns the length of an uncut step, s: the grid step, or the shortest current waveform piece.

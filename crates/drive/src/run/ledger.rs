@@ -151,7 +151,7 @@ impl Ledger {
         state: &mut State,
     ) -> Result<(), RunError> {
         for k in 0..model.blocks.len() {
-            self.commit_block((model, layout, true), k, state)?;
+            self.commit_block((model, layout), k, state)?;
         }
         self.booked.blocks = state.t;
         Ok(())
@@ -167,11 +167,11 @@ impl Ledger {
     ) -> Result<(), RunError> {
         self.led.clear();
         for (k, wired) in model.blocks.iter().enumerate() {
-            let states = Equations::on(model, state, layout, false).block_jump(k, state);
+            let states = Equations::on(model, state, layout).block_jump(k, state);
             let from = layout.block(wired.first);
             state.y[from..from + wired.count()].copy_from_slice(&states);
-            self.commit_block((model, layout, false), k, state)?;
-            if let Some((kind, law)) = Equations::on(model, state, layout, false).block_turn(k, state) {
+            self.commit_block((model, layout), k, state)?;
+            if let Some((kind, law)) = Equations::on(model, state, layout).block_turn(k, state) {
                 state.blocks[k].law = law;
                 self.led.push((k, kind));
             }
@@ -179,16 +179,16 @@ impl Ledger {
         Ok(())
     }
 
-    /// Commits one block. `crossing` selects the next waveform piece where the current one has ended.
+    /// Commits one block.
     fn commit_block(
         &mut self,
-        (model, layout, crossing): (&Model, Layout, bool),
+        (model, layout): (&Model, Layout),
         k: usize,
         state: &mut State,
     ) -> Result<(), RunError> {
         let (t, wired, passage) = (state.t, &model.blocks[k], &mut self.passages[k]);
         // The inputs may depend on blocks that have just been committed.
-        let equations = Equations::on(model, state, layout, crossing);
+        let equations = Equations::on(model, state, layout);
         lay_out(passage, (&equations, k), (t, &state.y), t - self.booked.blocks);
         let lost = wired.block().commit(&mut state.blocks[k].memory, passage);
         state.lost += lost.map_err(|refused| refusal(wired, t, refused))?;

@@ -128,7 +128,7 @@ impl<'a> Setting<'a> {
     where
         'a: 's,
     {
-        Equations::on(self.model, state, self.layout, false)
+        Equations::on(self.model, state, self.layout)
     }
 }
 

@@ -40,8 +40,8 @@ impl Section<'_> {
         }
         for (c, contact) in to.contacts.iter().enumerate() {
             let other = &from.contacts[c];
-            let was = Equations::on(from, &before, layout, false).motion(other, before.t, |i| before.y[i]);
-            let is = Equations::on(to, &taken, layout, false).motion(contact, t, |i| taken.y[i]);
+            let was = Equations::on(from, &before, layout).motion(other, before.t, |i| before.y[i]);
+            let is = Equations::on(to, &taken, layout).motion(contact, t, |i| taken.y[i]);
             let numbers = self.unknowns.iter().zip(by).map(|(unknown, by)| (*unknown, *by));
             if (is.d > 0.0) != (was.d > 0.0) {
                 return None;

@@ -120,27 +120,12 @@ impl Generating {
         self.span.unwrap_or(fresh).piece(self.count, false)
     }
 
-    /// Returns the piece at `t` (s) in the present span, for a step that ends beyond the present piece. None if the generator rests.
-    pub(crate) fn piece_at(&self, t: f64) -> Option<Piece> {
-        self.span.map(|span| span.piece_at(t))
-    }
-
-    /// Returns the generator and its piece at a later time `t` (s), for steps that do not end at corners.
+    /// Returns the generator and its piece at a later time `t` (s).
     fn at(mut self, mut piece: Piece, t: f64) -> (Self, Piece) {
         while piece.end <= t {
             piece = self.next(piece.end);
         }
         (self, piece)
-    }
-
-    /// Returns the time after `t` (s) at which cycles of another form or a rest begin; infinite without such a change.
-    fn changes(&self, piece: Piece, t: f64) -> f64 {
-        let (mut ahead, piece) = self.at(piece, t);
-        let Some(span) = ahead.span else { return piece.end };
-        let end = span.start(ahead.count.saturating_add(1));
-        ahead.turned = true;
-        ahead.next(end);
-        if ahead.span == Some(span) { f64::INFINITY } else { end }
     }
 
     /// Whether `piece` is the piece of this state, and `t` (s) is not too far beyond its end.
@@ -248,25 +233,6 @@ impl State {
             steps => steps,
         };
         Some(Generated { next, runs: now.span.is_some(), begun: now.begun, left })
-    }
-
-    /// Returns the piece at a later time `t` (s) and advances a generator to this piece. Not for input waveforms.
-    pub(crate) fn piece_at(&mut self, w: usize, waveform: &Waveform, t: f64) -> Piece {
-        match self.generators.get_mut(w) {
-            Some(Some(generating)) => {
-                let (ahead, piece) = generating.at(self.pieces[w], t);
-                *generating = ahead;
-                piece
-            }
-            _ => waveform.piece_at(t),
-        }
-    }
-
-    /// Returns the time of the next change in the cycles of a generator, s, where fixed steps end. Infinite without generators.
-    pub(crate) fn next_change(&self) -> f64 {
-        let all = self.generators.iter().zip(&self.pieces);
-        let changes = all.filter_map(|(generating, piece)| Some((*generating)?.changes(*piece, self.t)));
-        changes.fold(f64::INFINITY, f64::min)
     }
 }
 

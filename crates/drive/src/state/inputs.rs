@@ -119,28 +119,6 @@ impl State {
         }
     }
 
-    /// Advances every input whose supplied piece has begun to this piece. Returns whether any input has advanced.
-    pub(crate) fn take_supplied(&mut self) -> bool {
-        let mut taken = false;
-        for (w, supplied) in self.supplied.iter_mut().enumerate() {
-            if let Some(next) = supplied.take_if(|next| next.start <= self.t) {
-                (self.pieces[w], taken) = (next, true);
-            }
-        }
-        taken
-    }
-
-    /// Returns the first time at which a supplied piece ends or a generator changes its cycles, s; infinite without either.
-    pub(crate) fn next_input(&self, model: &Model) -> f64 {
-        let end = |(w, supplied): (usize, &Option<Piece>)| {
-            let present = self.pieces[w].end;
-            model.waveforms[w].interpolation()?;
-            Some(if present > self.t { present } else { supplied.map_or(present, |piece| piece.end) })
-        };
-        let first = self.supplied.iter().enumerate().filter_map(end).fold(f64::INFINITY, f64::min);
-        if self.generators.is_empty() { first } else { first.min(self.next_change()) }
-    }
-
     /// Whether an input is at the end of its piece and no further piece has been supplied.
     #[inline]
     pub(crate) fn waits_for_input(&self, model: &Model) -> bool {

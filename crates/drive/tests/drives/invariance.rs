@@ -271,10 +271,8 @@ fn jumps_are_refused_where_nothing_can_follow_them() {
     let mut scene = p1();
     scene.waveforms[0].part = jumping();
     let model = Model::new(&scene).unwrap();
-    for stepper in steppers().into_iter().skip(1) {
-        let error = model.start(&plan(stepper, PERIOD)).unwrap_err();
-        assert_eq!((error.part, error.field), (Part::Run, Field::Stepper));
-    }
+    let error = model.start(&plan(Stepper::Dopri5 { tolerance: 1e-6 }, PERIOD)).unwrap_err();
+    assert_eq!((error.part, error.field), (Part::Run, Field::Stepper));
     scene.springs.push(named("drag", damper([Side::Body(0), Side::Body(1)], 1.0)));
     let error = Model::new(&scene).unwrap_err();
     assert_eq!((error.part, error.field), (Part::Spring(0), Field::Damping));

@@ -88,13 +88,15 @@ fn a_damper_refuses_what_may_jump_and_follows_what_is_straight() {
 }
 
 #[test]
-fn fixed_steps_take_an_input_that_is_straight_and_none_that_jumps() {
-    let start = |interpolation| {
+fn the_reference_takes_an_input_that_is_straight_and_none_that_jumps() {
+    let start = |interpolation, stepper| {
         let model = Model::new(&driven_by(input(0.0, (0.0, 1e-7), interpolation))).unwrap();
-        model.start(&plan(Stepper::Rk4 { step: 3e-6 }, PERIOD)).map(|_| ())
+        model.start(&plan(stepper, PERIOD)).map(|_| ())
     };
-    assert_eq!(start(Interpolation::Held).unwrap_err().fault, SceneFault::UnlocatedJump);
-    assert_eq!(start(Interpolation::Linear), Ok(()));
+    let [dopri5, rk4] = [Stepper::Dopri5 { tolerance: 1e-6 }, Stepper::Rk4 { step: 3e-6 }];
+    assert_eq!(start(Interpolation::Held, dopri5).unwrap_err().fault, SceneFault::UnlocatedJump);
+    assert_eq!(start(Interpolation::Linear, dopri5), Ok(()));
+    assert_eq!(start(Interpolation::Held, rk4), Ok(()));
 }
 
 /// The range is checked before a run, even if the initial value is valid.

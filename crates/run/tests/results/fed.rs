@@ -97,10 +97,7 @@ fn compare(waveform: &str) {
     for stepper in located.into_iter().chain(in_frames).chain(fixed) {
         let plan = plan(&stage, stepper);
         let whole = known(&stage, &plan, &pieces);
-        // Fixed time steps switch to the next piece with the step into it. At a corner the next piece is already known.
-        let supplies: &[_] =
-            if stepper.ends_at_corners() { &[Supply::Late, Supply::Ahead] } else { &[Supply::Late] };
-        for &supply in supplies {
+        for supply in [Supply::Late, Supply::Ahead] {
             let trace = fed(&input, &plan, &pieces, supply);
             let told = format!("{waveform} {stepper:?} {supply:?}");
             assert_eq!(trace.rows().len(), whole.rows().len(), "{told}");

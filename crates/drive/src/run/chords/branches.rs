@@ -106,7 +106,7 @@ impl<'a> Chords<'a> {
         self.motions = motions;
     }
 
-    /// Accepts the step to time t with components y if all contacts keep to their branches and no output is due.
+    /// Accepts the step to time t with components y if all contacts keep to their branches, so that no event happens.
     ///
     /// Returns whether the step was accepted. No slip memory changes.
     #[inline]
@@ -120,7 +120,7 @@ impl<'a> Chords<'a> {
             Some(branches) if branches.holds_all(self.model) && self.model.blocks.is_empty() => {}
             _ => return false,
         }
-        if t > self.horizon.end || self.output.due(t) || wants_events(record) {
+        if t > self.horizon.end || wants_events(record) != self.watched {
             return false;
         }
         self.move_contacts(state, t, y);
@@ -129,6 +129,7 @@ impl<'a> Chords<'a> {
         if !closed.zip(&self.motions).all(|(closed, motion)| closed.keeps(motion)) {
             return false;
         }
+        self.write(state, t, (t, y), record);
         std::mem::swap(&mut self.before, &mut self.motions);
         state.y.copy_from_slice(y);
         state.t = t;
@@ -137,12 +138,41 @@ impl<'a> Chords<'a> {
         true
     }
 
+    /// Lets every contact whose branch ends in the step to time t with components y follow the full force law. Returns whether there is any.
+    ///
+    /// Slip memories are committed to the start of the step, which must be repeated.
+    pub(in crate::run) fn leaves(&mut self, state: &mut State, (t, y): (f64, &[f64])) -> bool {
+        let Some(branches) = self.branches.as_mut().filter(|_| !self.cuts) else { return false };
+        let mut ended = std::mem::take(&mut branches.ended);
+        self.move_contacts(state, t, y);
+        ended.clear();
+        for (c, motion) in self.motions.iter().enumerate() {
+            let keeps = |branch: &Branch| {
+                let left = self.branches.as_ref().map_or(0.0, |branches| branches.left(c, branch, motion));
+                left >= 0.0 && branch.sense() * motion.du >= 0.0
+            };
+            if state.modes[c].branch().is_some_and(|branch| !keeps(branch)) {
+                ended.push((c, 0.0));
+            }
+        }
+        let leaves = !ended.is_empty();
+        if leaves {
+            self.settle(state);
+            ended.iter().for_each(|(c, _)| state.modes[*c] = Law::whole(0.0));
+        }
+        if let Some(branches) = &mut self.branches {
+            branches.ended = ended;
+            branches.current &= !leaves;
+        }
+        leaves
+    }
+
     /// Returns the first branch end in the step to time t with components y, s.
     ///
     /// For a contact under a varying normal force, a kink of its force law counts as a branch end. If no branch ends, the branch ends
     /// stored before stay unchanged.
     pub(in crate::run) fn first_end(&mut self, state: &State, (t, y): (f64, &[f64])) -> Option<f64> {
-        self.branches.as_ref()?;
+        self.branches.as_ref().filter(|_| self.cuts)?;
         self.move_contacts(state, t, y);
         let duration = t - state.t;
         let Some(branches) = &mut self.branches else { return None };

@@ -10,36 +10,6 @@ use crate::{Event, RunError};
 use stickslip_contact::{Law, Segment};
 
 impl Chords<'_> {
-    /// Sets every waveform to its piece at the middle of the step from the current time to `end`.
-    ///
-    /// Returns whether any piece has changed. A step that ends at a corner thus uses one side of the corner only. At either end of the
-    /// step, rounding could select the wrong side.
-    ///
-    /// Blocks then choose their laws again. Runs that use this function have no waveforms with jumps.
-    pub(in crate::run) fn enter(&self, state: &mut State, end: f64) -> bool {
-        let middle = 0.5 * (state.t + end);
-        let mut changed = false;
-        for (w, waveform) in self.model.waveforms.iter().enumerate() {
-            let piece = state.pieces[w];
-            if (piece.start..piece.end).contains(&middle) {
-                continue;
-            }
-            let next = match waveform.interpolation() {
-                None => Some(state.piece_at(w, waveform, middle)),
-                Some(_) if middle >= piece.end => state.supplied[w].take(),
-                Some(_) => None,
-            };
-            if let Some(next) = next {
-                state.pieces[w] = next;
-                changed = true;
-            }
-        }
-        if changed {
-            state.choose_block_laws(self.model, self.layout);
-        }
-        changed
-    }
-
     /// Moves every waveform whose piece has ended to its next piece. Returns whether a corner was reached.
     ///
     /// For runs whose steps end at corners. At a jump, every contact moves along a straight path in zero time and free
@@ -62,6 +32,7 @@ impl Chords<'_> {
     #[inline(never)]
     fn turn_all(&mut self, state: &mut State, record: &mut dyn Record) -> Result<(), RunError> {
         let model = self.model;
+        self.watch(state, record);
         let before = if model.waveforms.iter().any(crate::Waveform::has_jumps) {
             self.settle(state);
             stored(&self.plain(state), state)
@@ -86,7 +57,7 @@ impl Chords<'_> {
             for (w, waveform) in model.waveforms.iter().enumerate() {
                 if waveform.has_jumps() && state.pieces[w].start == state.t {
                     let event = Event { t: state.t, source: Source::Waveform(w), kind: EventKind::Jump };
-                    let eq = Equations::on(self.model, state, self.layout, self.crossing);
+                    let eq = Equations::on(self.model, state, self.layout);
                     self.output.event(&eq, state, &event, record);
                 }
             }

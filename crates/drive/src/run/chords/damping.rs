@@ -21,7 +21,7 @@ impl Chords<'_> {
     }
 
     fn work(&self, state: &State, contact: &Contact, to: (f64, &[f64])) -> f64 {
-        let eq = Equations::on(self.model, state, self.layout, self.crossing);
+        let eq = Equations::on(self.model, state, self.layout);
         let step = Between { from: (state.t, &state.y), to, free: self.layout.free };
         let (memory, law) = eq.law(contact.place);
         let duration = to.0 - state.t;

@@ -1,12 +1,11 @@
 //! Events detected after a step of a run without event location.
 
 use super::{Chords, heading};
-use crate::contact::Motion;
 use crate::equations::Equations;
 use crate::event::{Event, EventKind, Source};
 use crate::record::{Record, wants_events};
 use crate::state::State;
-use stickslip_contact::{ContactState, Memory};
+use stickslip_contact::{ContactState, Memory, SpringRow, SpringState};
 
 impl Chords<'_> {
     /// Changes the laws of blocks whose event functions are negative after the step, or that choose a new law themselves.
@@ -14,7 +13,7 @@ impl Chords<'_> {
     /// Each block handles one event function per step, the first negative one. Further negative event functions follow after later steps.
     pub(super) fn pass_guards(&mut self, state: &mut State, record: &mut dyn Record) {
         for (k, wired) in self.model.blocks.iter().enumerate() {
-            let eq = Equations::on(self.model, state, self.layout, self.crossing);
+            let eq = Equations::on(self.model, state, self.layout);
             let t = state.t;
             let guards = wired.block().guards(&state.blocks[k].law);
             let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
@@ -24,32 +23,50 @@ impl Chords<'_> {
             state.blocks[k].law = law;
             if wants_events(record) {
                 let event = Event { t, source: Source::Block(k), kind };
-                let eq = Equations::on(self.model, state, self.layout, self.crossing);
+                let eq = Equations::on(self.model, state, self.layout);
                 self.output.event(&eq, state, &event, record);
             }
         }
     }
 
-    /// Returns the slip state of contact `c` after the last step, at motion `at`. The slip memory may not yet contain the step.
-    pub(super) fn standing(&self, c: usize, memory: &Memory, at: Option<&Motion>) -> ContactState {
-        let lags = self.branches.is_some();
-        let at = at.filter(|_| lags).map_or(memory.apex(), Motion::apex);
-        memory.preview(&self.model.contacts[c].interface, at).state
+    /// Sets whether the record requests events. A record that begins to request events gets events from now on, not earlier changes.
+    pub(super) fn watch(&mut self, state: &State, record: &dyn Record) {
+        let was_watched = std::mem::replace(&mut self.watched, wants_events(record));
+        if self.watched && !was_watched && state.counts.steps > 0 {
+            for c in 0..self.standings.len() {
+                self.standings[c] = self.standing(state, c);
+            }
+        }
     }
 
-    /// Reports a reversal for every sticking contact that reverses at a corner.
-    ///
-    /// For a slipping contact the next step reports the end of slip.
+    /// Returns the slip state of contact `c` after the last step; sticking and partial slip are not distinguished.
+    pub(super) fn standing(&self, state: &State, c: usize) -> ContactState {
+        let (law, memory) = (&self.model.contacts[c].interface, &state.memories[c]);
+        match (state.modes[c].branch(), memory) {
+            // The slip memory may not yet contain the step.
+            (Some(branch), _) if branch.is_gross() => ContactState::Slip,
+            (Some(_), _) => ContactState::Partial,
+            (None, Memory::Row(SpringRow { row, springs })) if law.kinetic().is_none() => match row.lowest(springs, law) {
+                SpringState::Open => ContactState::Open,
+                SpringState::Stick => ContactState::Partial,
+                SpringState::SlipForward | SpringState::SlipBackward => ContactState::Slip,
+            },
+            (None, _) => memory.preview(law, memory.apex()).state,
+        }
+    }
+
+    /// Reports the events of the contacts that reverse at a corner.
     pub(super) fn notice_turns(&mut self, state: &State, record: &mut dyn Record) {
-        let ended = self.branches.iter().flat_map(|branches| &branches.ended);
-        for &(c, sense) in ended {
-            let was = std::mem::replace(&mut self.senses[c], sense);
-            if !self.watched || was * sense >= 0.0 || self.standings[c] == ContactState::Slip {
-                continue;
+        let ended = self.branches.as_mut().map(|branches| std::mem::take(&mut branches.ended));
+        let ended = ended.unwrap_or_default();
+        for &(c, sense) in &ended {
+            if self.watched {
+                self.report(state, (c, sense), record);
             }
-            let event = Event { t: state.t, source: Source::Contact(c), kind: EventKind::Reversal };
-            let eq = Equations::on(self.model, state, self.layout, self.crossing);
-            self.output.event(&eq, state, &event, record);
+            self.senses[c] = sense;
+        }
+        if let Some(branches) = &mut self.branches {
+            branches.ended = ended;
         }
     }
 
@@ -57,24 +74,28 @@ impl Chords<'_> {
     ///
     /// The event counts of the state do not include these events, so that the state does not depend on the record.
     pub(super) fn notice(&mut self, state: &State, record: &mut dyn Record) {
-        for (c, motion) in self.motions.iter().enumerate() {
-            let now = self.standing(c, &state.memories[c], Some(motion));
-            let was = std::mem::replace(&mut self.standings[c], now);
-            let turns = self.senses[c] * heading(&state.modes[c], motion) < 0.0;
-            let [begins, ends] = self.model.contacts[c].gross_slip();
-            let kind = match (was, now) {
-                (ContactState::Open, ContactState::Open) => continue,
-                // A contact that touches in the first step was in contact from the start.
-                (ContactState::Open, _) if state.counts.steps > 1 => EventKind::Touch,
-                (_, ContactState::Open) => EventKind::LiftOff,
-                (ContactState::Slip, now) if now != ContactState::Slip => ends,
-                (was, ContactState::Slip) if was != ContactState::Slip => begins,
-                _ if turns => EventKind::Reversal,
-                _ => continue,
-            };
-            let event = Event { t: state.t, source: Source::Contact(c), kind };
-            let eq = Equations::on(self.model, state, self.layout, self.crossing);
-            self.output.event(&eq, state, &event, record);
+        for c in 0..self.motions.len() {
+            self.report(state, (c, heading(&state.modes[c], &self.motions[c])), record);
         }
+    }
+
+    /// Reports the event of a contact that now moves with a sense, if its state has changed.
+    fn report(&mut self, state: &State, (c, sense): (usize, f64), record: &mut dyn Record) {
+        let now = self.standing(state, c);
+        let was = std::mem::replace(&mut self.standings[c], now);
+        let [begins, ends] = self.model.contacts[c].gross_slip();
+        let kind = match (was, now) {
+            (ContactState::Open, ContactState::Open) => return,
+            // A contact that touches in the first step was in contact from the start.
+            (ContactState::Open, _) if state.counts.steps > 1 => EventKind::Touch,
+            (_, ContactState::Open) => EventKind::LiftOff,
+            (ContactState::Slip, now) if now != ContactState::Slip => ends,
+            (was, ContactState::Slip) if was != ContactState::Slip => begins,
+            _ if self.senses[c] * sense < 0.0 => EventKind::Reversal,
+            _ => return,
+        };
+        let event = Event { t: state.t, source: Source::Contact(c), kind };
+        let eq = Equations::on(self.model, state, self.layout);
+        self.output.event(&eq, state, &event, record);
     }
 }

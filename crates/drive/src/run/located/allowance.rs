@@ -169,7 +169,7 @@ impl Allowance {
             let Some(slot) = contact.slot else { continue };
             let work = contact.natural_work();
             if work > 0.0 {
-                let power = power(contact, &Equations::on(model, state, layout, false), state);
+                let power = power(contact, &Equations::on(model, state, layout), state);
                 let own =
                     (self.strict * work + PLACES * state.t * power / contact.count).max(contact.rounding());
                 for place in [layout.elastic(slot), layout.friction(slot)] {
@@ -217,7 +217,7 @@ pub(super) fn differences(model: &Model) -> Vec<f64> {
 /// Large positions occur for bodies that start far from the origin, and for actuator ends that have moved far.
 fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool) {
     let layout = model.layout();
-    let equations = Equations::on(model, state, layout, false);
+    let equations = Equations::on(model, state, layout);
     let at = Components { t: state.t, y: |i: usize| state.y[i] };
     let moment = RUSH / model.fastest;
     let late = f64::EPSILON * state.t;
@@ -262,7 +262,7 @@ fn allow_rush(model: &Model, state: &State, scale: &mut [f64], by_contacts: bool
 /// the same time.
 fn allow_places(model: &Model, state: &State, scale: &mut [f64]) {
     let layout = model.layout();
-    let equations = Equations::on(model, state, layout, false);
+    let equations = Equations::on(model, state, layout);
     let at = Components { t: state.t, y: |i: usize| state.y[i] };
     let mut round = |measure: &Measure| {
         let driven: f64 =
@@ -293,7 +293,7 @@ fn surge(model: &Model, state: &State) -> f64 {
     if model.links.is_empty() {
         return 0.0;
     }
-    let equations = Equations::on(model, state, model.layout(), false);
+    let equations = Equations::on(model, state, model.layout());
     let at = Components { t: state.t, y: |i: usize| state.y[i] };
     let rise = |link: &Link| link.stiffness * equations.stroke(link, &at).rate.powi(2);
     let step = state.step.min(1.0 / model.fastest);
@@ -304,7 +304,7 @@ fn surge(model: &Model, state: &State) -> f64 {
 ///
 /// The bound is μF_N times the prescribed speed. It is computed at corners only, because the speed is constant on a linear piece.
 pub(super) fn follower_power(model: &Model, state: &State) -> f64 {
-    let equations = Equations::on(model, state, model.layout(), false);
+    let equations = Equations::on(model, state, model.layout());
     model.contacts.iter().map(|contact| power(contact, &equations, state)).sum()
 }
 

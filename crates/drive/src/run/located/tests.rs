@@ -89,7 +89,7 @@ fn run(model: &Model, all: bool) -> Option<(Vec<f64>, State, usize)> {
             run.settle_books(&mut state);
         }
         let there = |c: usize| {
-            let motion = Equations::on(model, &state, model.layout(), false).motion(
+            let motion = Equations::on(model, &state, model.layout()).motion(
                 &model.contacts[c],
                 state.t,
                 |i| state.y[i],
@@ -178,7 +178,7 @@ fn forces_on_many_coordinates_are_those_of_the_general_equations() {
         let mut interval = Interval::of(&model);
         interval.begin(&model, &state);
         assert!(n > 4 && interval.kernel.is_laid_out() && interval.closed.len() == model.contacts.len());
-        let plain = Equations::on(&model, &state, model.layout(), false);
+        let plain = Equations::on(&model, &state, model.layout());
         let laid_out = Equations { interval: Some(&interval), ..plain };
         let slopes = |eq: &Equations<'_>| {
             let mut slopes = vec![f64::NAN; state.y.len()];

@@ -46,16 +46,4 @@ impl Span {
             Piece::straight((self.start(k), 0.0), top)
         }
     }
-
-    /// Returns the half cycle at `t` (s).
-    pub(super) fn piece_at(&self, t: f64) -> Piece {
-        let mut k = ((t - self.origin) / self.period).floor().max(0.0) as u64;
-        // The division may be off by one at a corner.
-        if k > 0 && self.start(k) > t {
-            k -= 1;
-        } else if self.start(k.saturating_add(1)) <= t {
-            k = k.saturating_add(1);
-        }
-        self.piece(k, self.turn(k) <= t)
-    }
 }
