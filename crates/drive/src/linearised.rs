@@ -137,7 +137,9 @@ impl Model {
     /// of blocks. The result is infinite without oscillation and decay, and `None` for adaptive steppers.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
         let Reach { motion, state } = stepper.reach()?;
-        let motions = self.parts(|d| d.most).iter().map(motion).fold(f64::INFINITY, f64::min);
+        let parts = self.parts(|d| d.most);
+        let motions = parts.iter().map(|part| motion(part, part.highest_frequency()));
+        let motions = motions.fold(f64::INFINITY, f64::min);
         Some(self.block_eigenvalues().iter().map(state).fold(motions, f64::min))
     }
 }
@@ -180,18 +182,19 @@ impl Linearised {
         let Some(eigen) = symmetric(self.by_mass(&self.stiffness)) else { return Vec::new() };
         // A free motion has the eigenvalue 0 up to rounding of either sign.
         let rounding = self.mass.len() as f64 * f64::EPSILON * eigen.eigenvalues.amax();
+        let damping = self.by_mass(&self.damping);
         let mode = |(k, value): (usize, &f64)| {
             let frequency = if *value > rounding { value.sqrt() } else { 0.0 };
-            self.mode(frequency, &eigen.eigenvectors.column(k).into_owned())
+            self.mode(frequency, &eigen.eigenvectors.column(k).into_owned(), &damping)
         };
         let mut modes: Vec<NormalMode> = eigen.eigenvalues.iter().enumerate().map(mode).collect();
         modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
         modes
     }
 
-    /// Returns the normal mode that belongs to a unit eigenvector of M^{-1/2} K M^{-1/2}.
-    fn mode(&self, frequency: f64, vector: &DVector<f64>) -> NormalMode {
-        let damped = vector.dot(&(self.by_mass(&self.damping) * vector));
+    /// Returns the normal mode that belongs to a unit eigenvector of M^{-1/2} K M^{-1/2}; `damping` is M^{-1/2} C M^{-1/2}.
+    fn mode(&self, frequency: f64, vector: &DVector<f64>, damping: &DMatrix<f64>) -> NormalMode {
+        let damped = vector.dot(&(damping * vector));
         let displaced = vector.zip_map(&self.mass, |x, mass| x / mass.sqrt());
         let largest = displaced.iter().fold(0.0, |most: f64, x| if x.abs() > most.abs() { *x } else { most });
         let shape: Vec<f64> = displaced.iter().map(|x| x / largest).collect();
@@ -213,30 +216,30 @@ impl Linearised {
 
     /// Returns the largest angular frequency of all normal modes, rad/s; 0 without modes.
     fn highest_frequency(&self) -> f64 {
-        self.modes().last().map_or(0.0, |mode| mode.frequency)
+        largest(self.by_mass(&self.stiffness)).map_or(0.0, |value| value.max(0.0).sqrt())
     }
 
     /// Returns the longest stable step of velocity Verlet with the predicted velocity in the damping, s; see `stickslip_stepper::Verlet`.
+    /// The largest angular frequency is given.
     ///
     /// A motion x ξⁿ satisfies [ξ M + h²K ξ²/(ξ-1)² + hC (3ξ-1)/(2(ξ-1))] x = 0. The step becomes unstable at ξ = -1, where an eigenvalue
     /// of M⁻¹(h²K/4 + hC) reaches 1. Without damping h = 2/ω; with one damped mode (hω)² + 8ζhω = 4.
-    fn longest_verlet_step(&self) -> f64 {
+    fn longest_verlet_step(&self, frequency: f64) -> f64 {
         let (stiffness, damping) = (self.by_mass(&self.stiffness), self.by_mass(&self.damping));
-        let largest =
-            |h: f64| symmetric(&stiffness * (0.25 * h * h) + &damping * h).map(|e| e.eigenvalues.max());
-        let undamped = 2.0 / self.highest_frequency();
+        let undamped = 2.0 / frequency;
         let rate = damping.amax();
         if rate == 0.0 {
             return undamped;
         }
         // A positive semidefinite matrix has an eigenvalue of at least its largest entry, so no step above 1/rate is stable.
-        longest(undamped.min(1.0 / rate), |h| largest(h).is_some_and(|value| value <= 1.0))
+        longest(undamped.min(1.0 / rate), |h| {
+            largest(&stiffness * (0.25 * h * h) + &damping * h).is_some_and(|value| value <= 1.0)
+        })
     }
 
     /// Returns the longest stable step of the classical Runge–Kutta method, s: |1 + z + z²/2 + z³/6 + z⁴/24| ≤ 1 with z = hλ for every
-    /// eigenvalue λ of λ²M + λC + K. Without damping h = √8/ω.
-    fn longest_rk4_step(&self) -> f64 {
-        let frequency = self.highest_frequency();
+    /// eigenvalue λ of λ²M + λC + K. Without damping h = √8/ω, with the given largest angular frequency ω.
+    fn longest_rk4_step(&self, frequency: f64) -> f64 {
         if self.damping.amax() == 0.0 {
             return 2.0 * SQRT_2 / frequency;
         }
@@ -263,9 +266,15 @@ fn eigenvalues(matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
     schur.map_or_else(Vec::new, |schur| schur.complex_eigenvalues().iter().copied().collect())
 }
 
-/// Returns the matrix if all entries are finite, because otherwise the iterations of nalgebra would not end.
+/// Returns the matrix if all entries and the sum of their squares are finite, because otherwise the iterations of nalgebra would not end.
 fn finite(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
-    matrix.iter().all(|entry| entry.is_finite()).then_some(matrix)
+    matrix.norm_squared().is_finite().then_some(matrix)
+}
+
+/// Returns the largest eigenvalue of a symmetric matrix; `None` if the matrix is empty or an entry is not finite.
+fn largest(matrix: DMatrix<f64>) -> Option<f64> {
+    let matrix = finite(matrix).filter(|matrix| !matrix.is_empty())?;
+    Some(matrix.symmetric_eigenvalues().max())
 }
 
 /// Returns eigenvalues and eigenvectors of a symmetric matrix; `None` if an entry is not finite or the iteration fails.

@@ -1,8 +1,8 @@
 //! Number of time steps in a frame (control interval) of a real-time simulation.
 
-use super::Linearised;
+use super::Reach;
 use crate::contact::Contact;
-use crate::{Model, Stepper, Waveform};
+use crate::{Model, Waveform};
 use nalgebra::ComplexField;
 use std::f64::consts::FRAC_PI_2;
 
@@ -29,13 +29,18 @@ impl Model {
     /// ω is the highest natural angular frequency in full stick at the largest depths, or the highest angular frequency of a waveform, if
     /// larger.
     pub fn substeps(&self, length: f64, accuracy: f64) -> f64 {
-        let parts = self.parts(|d| d.most);
-        let swing = parts.iter().map(Linearised::highest_frequency).fold(0.0, f64::max);
-        let of_blocks = self.block_eigenvalues().iter().map(|rate| rate.modulus()).fold(0.0, f64::max);
+        let (mut swing, mut stable) = (0.0, f64::INFINITY);
+        for part in self.parts(|d| d.most) {
+            let frequency = part.highest_frequency();
+            swing = f64::max(swing, frequency);
+            stable = f64::min(stable, (Reach::RK4.motion)(&part, frequency));
+        }
+        let blocks = self.block_eigenvalues();
+        let of_blocks = blocks.iter().map(|rate| rate.modulus()).fold(0.0, f64::max);
+        stable = blocks.iter().map(Reach::RK4.state).fold(stable, f64::min);
         // Motions with other dampers have decayed, but slip changes the damping of a contact.
         let is_damped = self.contacts.iter().any(Contact::is_damped);
         let settling = if is_damped { of_blocks.max(self.paces().fading) } else { of_blocks };
-        let stable = self.longest_step(Stepper::Frames { length, accuracy }).unwrap_or(f64::INFINITY);
         let quarter = self.waveforms.iter().map(Waveform::resolution).fold(f64::INFINITY, f64::min);
         let fastest = swing.max(FRAC_PI_2 / quarter);
         let smooth = math::powf(TRUNCATION * accuracy, 0.2) / settling;

@@ -9,8 +9,8 @@ const HALVINGS: u32 = 64;
 /// Stability limits of a method, s.
 #[derive(Clone, Copy)]
 pub(crate) struct Reach {
-    /// Limit for the motion of bodies.
-    pub(super) motion: fn(&Linearised) -> f64,
+    /// Limit for the motion of bodies with a largest angular frequency, rad/s.
+    pub(super) motion: fn(&Linearised, f64) -> f64,
     /// Limit for a first-order state with this eigenvalue, 1/s.
     pub(super) state: fn(&Complex<f64>) -> f64,
 }
