@@ -45,26 +45,29 @@ pub(crate) enum Stepping {
     Dopri5,
     Rk4,
     Verlet,
+    Frames,
 }
 
 impl Stepping {
-    pub(crate) const ALL: [Self; 4] = [Self::Event, Self::Dopri5, Self::Rk4, Self::Verlet];
+    pub(crate) const ALL: [Self; 5] = [Self::Event, Self::Dopri5, Self::Rk4, Self::Verlet, Self::Frames];
 
     pub(crate) fn name(self) -> &'static str {
-        self.at(0.0).name()
+        self.at(0.0, 0.0).name()
     }
 
     /// Returns whether the integrator has a fixed step instead of a tolerance.
     pub(crate) fn is_fixed(self) -> bool {
-        matches!(self.at(0.0).accuracy(), Accuracy::Step(_))
+        matches!(self.at(0.0, 0.0).accuracy(), Accuracy::Step(_))
     }
 
-    fn at(self, value: f64) -> Stepper {
+    /// Returns the stepper with a tolerance or a step (s); frames last as long as a sample interval, s.
+    fn at(self, value: f64, interval: f64) -> Stepper {
         match self {
             Self::Event => Stepper::Event { tolerance: value },
             Self::Dopri5 => Stepper::Dopri5 { tolerance: value },
             Self::Rk4 => Stepper::Rk4 { step: value },
             Self::Verlet => Stepper::Verlet { step: value },
+            Self::Frames => Stepper::Frames { length: interval, accuracy: value },
         }
     }
 }
@@ -97,7 +100,7 @@ impl<'p> Own<'p> {
         let limits = Limits { wall, ..Limits::default() };
         Plan {
             duration: self.problem.duration,
-            stepper: self.stepping.at(value),
+            stepper: self.stepping.at(value, Samples::interval(self.problem.duration)),
             limits,
             every,
             until_steady: None,

@@ -9,12 +9,13 @@ use stickslip_run::provenance;
 pub const NAME: &str = "work-precision";
 
 /// Curves of the diagram: name, methods and contact engine. For each error, the best run of these methods counts.
-const CURVES: [(&str, &[&str], &str); 5] = [
+const CURVES: [(&str, &[&str], &str); 6] = [
     ("event", &["event"], "curve"),
     ("rk4", &["rk4", "exact-rk4"], "curve"),
     ("verlet", &["verlet", "exact-verlet"], "curve"),
     ("dopri5", &["dopri5", "ode_solvers"], "curve"),
     ("springs", &["loop", "loop-rk4"], "springs"),
+    ("frames", &["frames"], "curve"),
 ];
 
 /// Draws the diagram as light and dark PNG and as SVG, from the text of `bench.csv`. Rows without a result are left out.

@@ -12,28 +12,38 @@ use stickslip_run::Unrecorded;
 pub(super) enum Kind {
     Springs,
     Contacts,
+    Frames,
     Coordinates,
     Time,
     Rows,
     Memory,
 }
 
-/// Time integrator for all quantities except springs.
+/// Time integrator for all quantities except springs and frames.
 const EVENT: Stepper = Stepper::Event { tolerance: 1e-6 };
+const FRAMES: Stepper = Stepper::Frames { length: 0.02 * PERIOD, accuracy: 1e-3 };
 /// Number of periods of the shorter runs.
 const PERIODS: f64 = 10.0;
 /// Number of inner cycles of a memory measurement.
 const INNER: u32 = 50;
 
 impl Kind {
-    pub(super) const ALL: [Self; 6] =
-        [Self::Springs, Self::Contacts, Self::Coordinates, Self::Time, Self::Rows, Self::Memory];
+    pub(super) const ALL: [Self; 7] = [
+        Self::Springs,
+        Self::Contacts,
+        Self::Frames,
+        Self::Coordinates,
+        Self::Time,
+        Self::Rows,
+        Self::Memory,
+    ];
 
     /// Returns the name in the table.
     pub(super) fn key(self) -> &'static str {
         match self {
             Self::Springs => "springs",
             Self::Contacts => "contacts",
+            Self::Frames => "contacts_in_frames",
             Self::Coordinates => "coordinates",
             Self::Time => "simulated_s",
             Self::Rows => "rows_per_period",
@@ -46,6 +56,7 @@ impl Kind {
         match self {
             Self::Springs => ("springs of a row", ""),
             Self::Contacts => ("contacts of a slider", ""),
+            Self::Frames => ("contacts, by frames", ""),
             Self::Coordinates => ("sliders", ""),
             Self::Time => ("simulated time", "s"),
             Self::Rows => ("rows per period", ""),
@@ -57,7 +68,9 @@ impl Kind {
     pub(super) fn points(self) -> Result<Vec<Point>, String> {
         let sizes: &[u32] = match self {
             Self::Springs => &[16, 64, 256, 1024, 4096, 16_384],
-            Self::Contacts | Self::Coordinates => &[1, 2, 4, 8, 16, 32],
+            Self::Contacts => &[1, 2, 4, 8, 16, 32, 64, 128],
+            Self::Frames => &[1, 2, 4, 8, 16, 32, 64, 128, 256, 512],
+            Self::Coordinates => &[1, 2, 4, 8, 16, 32],
             Self::Time => &[10, 100, 1000, 10_000],
             Self::Rows => &[1, 10, 100, 1000],
             Self::Memory => &[1, 4, 16, 64, 256],
@@ -74,6 +87,7 @@ impl Kind {
         match self {
             Self::Springs => from_rest(whole, drive(1, 1, row), plan(PERIODS, verlet, None)),
             Self::Contacts => from_rest(whole, drive(1, size, curve), plan(PERIODS, EVENT, None)),
+            Self::Frames => from_rest(whole, drive(1, size, curve), plan(PERIODS, FRAMES, None)),
             Self::Coordinates => from_rest(whole, drive(size, 1, curve), plan(PERIODS, EVENT, None)),
             Self::Time => from_rest(PERIOD * whole, drive(1, 1, curve), plan(whole, EVENT, None)),
             Self::Rows => from_rest(whole, drive(1, 1, curve), plan(PERIODS, EVENT, Some(rows))),

@@ -233,7 +233,7 @@ impl Implausible<'_> {
                     "{} reverses within {quickest}: a time step of {step} does not resolve this",
                     waveform.name
                 );
-                let help = "use time steps of at most a fifth of this time, or run.stepper.event, whose steps end at corners";
+                let help = "use time steps of at most a fifth of this time, or run.stepper.event";
                 return self.find("step", &path, message, help);
             }
         }
