@@ -13,6 +13,8 @@ mod sum;
 
 use crate::contact::{Contact, Motion, Press};
 pub(crate) use balance::Instant;
+use blocks::Outputs;
+use sum::Once;
 pub(crate) use sum::{Components, Positions, Reading, Sum, View, accelerate, constant_forces};
 
 use crate::interval::{Interval, Kernel, Pull};
@@ -278,6 +280,12 @@ impl Equations<'_> {
         extra.fill(0.0);
         let mut sum = Sum::new(&self.model.free, dv);
         let at = Components { t, y: |i: usize| y[i] };
+        let mut outputs = Outputs::new();
+        // The output of a single block has one reader.
+        if self.blocks.len() > 1 || !self.model.balanced.is_empty() {
+            self.compute_outputs(self.blocks.len() + self.model.balanced.len(), &at, &mut outputs);
+        }
+        let at = Once { at: &at, outputs: &outputs };
         self.contacts(&at, &mut sum, extra);
         self.model.links.iter().for_each(|link| self.link(link, &at, &mut sum));
         self.loads(t, v, &mut sum);

@@ -4,7 +4,7 @@
 //! and efforts along the lengths. Inputs and states of a block are stored on the stack, at most [`MOST_OF_A_BLOCK`] of each. Models with
 //! blocks are integrated by methods that evaluate all states.
 
-use super::sum::{Sum, View};
+use super::sum::{Once, Sum, View};
 use super::{Components, Equations};
 use crate::component::{Block, Moment, Standing};
 use crate::model::{MOST_OF_A_BLOCK, Wire, Wired};
@@ -14,6 +14,12 @@ use arrayvec::ArrayVec;
 
 /// Samples of the inputs of a block.
 pub(crate) type Inputs = ArrayVec<Sample, MOST_OF_A_BLOCK>;
+
+/// Largest number of outputs that are computed once for an evaluation. Further ones are computed for each reader.
+const MOST_OUTPUTS: usize = 16;
+
+/// Outputs of blocks, then of quasi-static coordinates.
+pub(super) type Outputs = ArrayVec<Sample, MOST_OUTPUTS>;
 
 impl Equations<'_> {
     /// Returns the value of a signal: a waveform, the output of a block, or a quasi-static coordinate.
@@ -26,8 +32,20 @@ impl Equations<'_> {
     ///
     /// Blocks read only signals with a smaller index, as the model check ensures, so the recursion ends.
     #[inline(never)]
-    fn made(&self, signal: usize, at: &impl View) -> Sample {
+    pub(super) fn made(&self, signal: usize, at: &impl View) -> Sample {
         let made = signal - self.pieces.len();
+        at.output(made).unwrap_or_else(|| self.make(made, at))
+    }
+
+    /// Computes the first outputs of blocks and quasi-static coordinates, `count` at most.
+    pub(super) fn compute_outputs(&self, count: usize, at: &impl View, outputs: &mut Outputs) {
+        for made in 0..count.min(MOST_OUTPUTS) {
+            let output = self.make(made, &Once { at, outputs });
+            outputs.push(output);
+        }
+    }
+
+    fn make(&self, made: usize, at: &impl View) -> Sample {
         match made.checked_sub(self.blocks.len()) {
             Some(balanced) => self.balanced(balanced, at),
             None => self.ask_block(made, at, |block, standing, at| block.signal(standing, at)),
@@ -70,7 +88,14 @@ impl Equations<'_> {
 
     /// Returns the value of an event function of block `k` at time t (s); `y` returns a component of the state.
     pub(crate) fn block_guard(&self, k: usize, guard: usize, t: f64, y: impl Fn(usize) -> f64) -> f64 {
-        self.ask_block(k, &Components { t, y }, |block, standing, at| block.guard(guard, standing, at))
+        let at = Components { t, y };
+        let mut outputs = Outputs::new();
+        // A block without blocks before it, or with a single one, reads each output once.
+        if k > 1 {
+            self.compute_outputs(k, &at, &mut outputs);
+        }
+        let at = Once { at: &at, outputs: &outputs };
+        self.ask_block(k, &at, |block, standing, at| block.guard(guard, standing, at))
     }
 
     /// Returns the kind of event and the new law after a zero crossing of an event function of block `k`.

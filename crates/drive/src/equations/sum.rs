@@ -3,6 +3,7 @@
 //! A [`View`] gives access to time and state components, with or without velocities; code is compiled for each case. A [`Sum`] adds up
 //! forces and powers by means of the Jacobian of the contact displacements.
 
+use crate::Sample;
 use crate::interval::Row;
 use crate::model::{Free, Terms};
 
@@ -14,6 +15,34 @@ pub(crate) trait View {
     fn time(&self) -> f64;
     /// Returns component `i` of the state.
     fn component(&self, i: usize) -> f64;
+    /// Returns output `k` of the blocks and quasi-static coordinates, if it has been computed for this evaluation.
+    #[inline(always)]
+    fn output(&self, k: usize) -> Option<Sample> {
+        let _ = k;
+        None
+    }
+}
+
+/// View with the first outputs of blocks and quasi-static coordinates, computed once for all that read them.
+pub(crate) struct Once<'v, V> {
+    pub(crate) at: &'v V,
+    pub(crate) outputs: &'v [Sample],
+}
+
+impl<V: View> View for Once<'_, V> {
+    const MOVES: bool = V::MOVES;
+    #[inline(always)]
+    fn time(&self) -> f64 {
+        self.at.time()
+    }
+    #[inline(always)]
+    fn component(&self, i: usize) -> f64 {
+        self.at.component(i)
+    }
+    #[inline(always)]
+    fn output(&self, k: usize) -> Option<Sample> {
+        self.outputs.get(k).copied()
+    }
 }
 
 /// View of all components of the state.

@@ -116,7 +116,9 @@ pub enum SceneFault {
     #[error("a damper cannot follow the jumps of waveform `{0}`")]
     DampedJump(String),
     /// The stepper cannot follow waveforms that jump.
-    #[error("only the stepper \"event\" follows this jump: \"dopri5\" follows none, and fixed steps none with a `balanced` coordinate")]
+    #[error(
+        "only the stepper \"event\" follows this jump: \"dopri5\" follows none, and fixed steps none with a `balanced` coordinate"
+    )]
     UnlocatedJump,
     /// The fixed step is unstable for the fastest motion, or for a state of a block.
     #[error("expected less than {limit:.3e} s, the stability limit, got {step:e} s")]

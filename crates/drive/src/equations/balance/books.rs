@@ -14,11 +14,9 @@ impl Equations<'_> {
     // Not inlined, as most models have no balanced coordinates.
     #[inline(never)]
     pub(in crate::equations) fn balance(&self, at: &impl View, sum: &mut Sum<'_>, extra: &mut [f64]) {
-        let read = |i: usize| at.component(i);
-        let at = Components { t: at.time(), y: &read as &dyn Fn(usize) -> f64 };
         for (b, balanced) in self.model.balanced.iter().enumerate() {
-            let place = self.place_and_rates(b, &at);
-            let load = self.load(balanced, at.t);
+            let place = self.made(self.pieces.len() + self.blocks.len() + b, at);
+            let load = self.load(balanced, at.time());
             sum.input -= load.value * place.rate + place.value * load.rate;
             if let Some(slot) = balanced.slot.filter(|_| self.carries(balanced)) {
                 extra[self.layout.balanced(slot) - 2 * self.layout.free] = place.rate;

@@ -46,11 +46,13 @@ impl Chords<'_> {
             // The slip memory may not yet contain the step.
             (Some(branch), _) if branch.is_gross() => ContactState::Slip,
             (Some(_), _) => ContactState::Partial,
-            (None, Memory::Row(SpringRow { row, springs })) if law.kinetic().is_none() => match row.lowest(springs, law) {
-                SpringState::Open => ContactState::Open,
-                SpringState::Stick => ContactState::Partial,
-                SpringState::SlipForward | SpringState::SlipBackward => ContactState::Slip,
-            },
+            (None, Memory::Row(SpringRow { row, springs })) if law.kinetic().is_none() => {
+                match row.lowest(springs, law) {
+                    SpringState::Open => ContactState::Open,
+                    SpringState::Stick => ContactState::Partial,
+                    SpringState::SlipForward | SpringState::SlipBackward => ContactState::Slip,
+                }
+            }
             (None, _) => memory.preview(law, memory.apex()).state,
         }
     }

@@ -89,11 +89,9 @@ fn run(model: &Model, all: bool) -> Option<(Vec<f64>, State, usize)> {
             run.settle_books(&mut state);
         }
         let there = |c: usize| {
-            let motion = Equations::on(model, &state, model.layout()).motion(
-                &model.contacts[c],
-                state.t,
-                |i| state.y[i],
-            );
+            let motion =
+                Equations::on(model, &state, model.layout())
+                    .motion(&model.contacts[c], state.t, |i| state.y[i]);
             let way = state.memories[c].apex().u - motion.u;
             way.abs() < 1e-12 * model.contacts[c].natural.displacement
         };
