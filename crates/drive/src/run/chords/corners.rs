@@ -63,7 +63,7 @@ impl Chords<'_> {
             }
             self.ledger.tell(record);
         }
-        state.choose_block_laws(model, self.layout);
+        self.turn_blocks(state, record);
         self.branch_at_corner(state, record)
     }
 

@@ -19,13 +19,32 @@ impl Chords<'_> {
             let down = |guard: &&usize| eq.block_guard(k, **guard, t, |i| state.y[i]) < 0.0;
             // The block's memory has been committed before: changes that it already contains cause no event.
             let fallen = guards.iter().find(down).map(|guard| eq.block_next(k, *guard, state));
-            let Some((kind, law)) = fallen.or_else(|| eq.block_turn(k, state)) else { continue };
-            state.blocks[k].law = law;
-            if wants_events(record) {
-                let event = Event { t, source: Source::Block(k), kind };
-                let eq = Equations::on(self.model, state, self.layout);
-                self.output.event(&eq, state, &event, record);
-            }
+            let next = fallen.or_else(|| eq.block_turn(k, state));
+            self.set_block_law(state, (k, next), record);
+        }
+    }
+
+    /// Chooses the laws of all blocks anew after a corner of a waveform.
+    pub(super) fn turn_blocks(&mut self, state: &mut State, record: &mut dyn Record) {
+        for k in 0..self.model.blocks.len() {
+            let next = Equations::on(self.model, state, self.layout).block_turn(k, state);
+            self.set_block_law(state, (k, next), record);
+        }
+    }
+
+    /// Sets the law of block `k`, if there is another one, and reports the event.
+    fn set_block_law(
+        &mut self,
+        state: &mut State,
+        (k, next): (usize, Option<(EventKind, usize)>),
+        record: &mut dyn Record,
+    ) {
+        let Some((kind, law)) = next else { return };
+        state.blocks[k].law = law;
+        if wants_events(record) {
+            let event = Event { t: state.t, source: Source::Block(k), kind };
+            let eq = Equations::on(self.model, state, self.layout);
+            self.output.event(&eq, state, &event, record);
         }
     }
 
