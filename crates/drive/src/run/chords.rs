@@ -17,7 +17,7 @@ use super::bounds::Bounds;
 use super::horizon::{Goal, Horizon};
 use super::ledger::Ledger;
 use super::output::{Opening, Output};
-use crate::contact::Motion;
+use crate::contact::{Contact, Motion};
 use crate::equations::Equations;
 use crate::method::Method;
 use crate::model::Model;
@@ -26,7 +26,10 @@ use crate::state::{FixedWay, Layout, State, Underway, beyond};
 use crate::{Plan, RunError, Stepper};
 use branches::{Branches, GROWING_KNOTS, KNOTS};
 pub(super) use step::Between;
-use stickslip_contact::{Branch, ContactState, Law, Memory};
+use stickslip_contact::{ContactState, Law, Memory};
+
+/// Largest velocity of a contact at rest, in natural velocities.
+const REST: f64 = 1e-12;
 
 /// Run without event location: accepts steps, writes the output inside them and detects events afterwards.
 pub(super) struct Chords<'a> {
@@ -250,10 +253,10 @@ impl<'a> Chords<'a> {
         }
         std::mem::swap(&mut self.before, &mut self.motions);
         for (c, motion) in self.before.iter().enumerate() {
-            let heading = heading(&state.modes[c], motion);
+            let heading = heading(&self.model.contacts[c], &state.modes[c], motion);
             // A contact at rest keeps its last sense: a stop is no reversal.
             if heading != 0.0 {
-                self.senses[c] = heading.signum();
+                self.senses[c] = heading;
             }
         }
         self.bounds.step(state, record)
@@ -269,9 +272,18 @@ impl<'a> Chords<'a> {
     }
 }
 
-/// Returns the sliding direction of a contact: the sense of its branch, otherwise its velocity u̇.
+/// Returns the sliding direction of a contact: the sense of its branch, otherwise the sign of its velocity u̇; 0 at rest.
 ///
 /// At a reversal that cuts the step, rounding may give u̇ the wrong sign. The branch has the right one.
-pub(super) fn heading(law: &Law, motion: &Motion) -> f64 {
-    law.branch().map_or(motion.du, Branch::sense)
+fn heading(contact: &Contact, law: &Law, motion: &Motion) -> f64 {
+    match law.branch() {
+        Some(branch) => branch.sense(),
+        None if is_at_rest(contact, motion) => 0.0,
+        None => motion.du.signum(),
+    }
+}
+
+/// Whether the velocity u̇ of a contact is only rounding.
+fn is_at_rest(contact: &Contact, motion: &Motion) -> bool {
+    motion.du.abs() <= REST * contact.natural_velocity()
 }

@@ -5,7 +5,8 @@
 //! may increase the distance from a run at 1e-12 by ten tolerances. Over the whole scenario, the allowed distance is ten times that of the
 //! uninterrupted run.
 
-use crate::shared::{Stage, verlet};
+use crate::shared::{Stage, frames, rk4, verlet};
+use std::collections::BTreeMap;
 use stickslip_drive::{Accuracy, EventKind, Plan, Run, Stepper, Trace};
 
 /// Frame lengths, s.
@@ -140,4 +141,27 @@ fn who_watches_late_sees_what_happens_from_there_on() {
     run.advance(4e-3, &mut late).unwrap();
     assert!(after(&always, 0.77e-3).len() > 10, "{:?}", after(&always, 0.0));
     assert_eq!(after(&late, 0.0), after(&always, 0.77e-3));
+}
+
+/// Methods with a fixed time step report as many events of each contact and driver as `event` locates. They report no corners and closed
+/// loops.
+#[test]
+fn fixed_steps_report_what_is_located() {
+    for name in ["driven_stage.json", "vibrated_slider.json", "p1.json"] {
+        let stage = Stage::example(name);
+        let counts = |stepper: Stepper| {
+            let trace = rows(&stage, &stage.plan(stepper, stage.job.scenario.plan.duration), None);
+            let silent = [EventKind::Corner, EventKind::LoopClosed];
+            let told = trace.events().map(|(event, _)| (format!("{:?}", event.source), event.kind));
+            let mut counts = BTreeMap::new();
+            told.filter(|(_, kind)| !silent.contains(kind))
+                .for_each(|(source, kind)| *counts.entry((source, format!("{kind:?}"))).or_insert(0) += 1);
+            counts
+        };
+        let located = counts(Stepper::Event { tolerance: 1e-8 });
+        assert!(located.values().sum::<i32>() > 50, "{name}: {located:?}");
+        for stepper in [rk4(1e-6), verlet(1e-6), frames(20e-6)] {
+            assert_eq!(counts(stepper), located, "{name} {stepper:?}");
+        }
+    }
 }

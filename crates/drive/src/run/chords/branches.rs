@@ -11,8 +11,8 @@
 //! are cut where such a contact touches or separates, and where a slip edge starts or stops. Without these cuts, the slip memory would
 //! store a reversal with an error of second order in the step.
 
-use super::Chords;
 use super::way::{Way, end_of, kink};
+use super::{Chords, is_at_rest};
 use crate::Model;
 use crate::RunError;
 use crate::contact::{Contact, Motion};
@@ -349,5 +349,5 @@ fn next_mode(contact: &Contact, memory: &Memory, motion: &Motion, (sense, left):
 /// Whether a contact with this motion can keep to a branch: sliding, closed, at constant indentation, and with one coefficient.
 fn keeps_to_branches(contact: &Contact, motion: &Motion) -> bool {
     let jumps = contact.interface.kinetic().is_some();
-    contact.is_constant() && !contact.inert && !jumps && motion.d > 0.0 && motion.du != 0.0
+    contact.is_constant() && !contact.inert && !jumps && motion.d > 0.0 && !is_at_rest(contact, motion)
 }

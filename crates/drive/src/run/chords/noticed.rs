@@ -96,7 +96,8 @@ impl Chords<'_> {
     /// The event counts of the state do not include these events, so that the state does not depend on the record.
     pub(super) fn notice(&mut self, state: &State, record: &mut dyn Record) {
         for c in 0..self.motions.len() {
-            self.report(state, (c, heading(&state.modes[c], &self.motions[c])), record);
+            let heading = heading(&self.model.contacts[c], &state.modes[c], &self.motions[c]);
+            self.report(state, (c, heading), record);
         }
     }
 
