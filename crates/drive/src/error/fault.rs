@@ -117,7 +117,7 @@ pub enum SceneFault {
     DampedJump(String),
     /// The stepper cannot follow waveforms that jump.
     #[error(
-        "only the stepper \"event\" follows this jump: \"dopri5\" follows none, and fixed steps none with a `balanced` coordinate"
+        "\"dopri5\" follows no waveform that jumps, and fixed steps follow none with a `balanced` coordinate"
     )]
     UnlocatedJump,
     /// The fixed step is unstable for the fastest motion, or for a state of a block.
