@@ -189,7 +189,7 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         let mut end = if aim > stop - slack { stop } else { aim };
         self.y.copy_from_slice(&state.y);
         let (before, is_due) = (self.chords.horizon.steps, self.chords.horizon.steps.due(end).is_some());
-        let spent = self.stepper.evaluations();
+        let mut spent = self.stepper.evaluations();
         if is_due {
             self.slopes.clear();
             self.slopes.extend_from_slice(self.stepper.kept().unwrap_or_default());
@@ -202,6 +202,10 @@ impl<'a, F: FixedStep + for<'e> Stepping<Equations<'e>>> Fixed<'a, F> {
         }
         end = self.cut(state, end);
         if self.chords.leaves(state, (end, &self.y)) {
+            // A step that is undone below is taken again from here.
+            spent = self.stepper.evaluations();
+            self.slopes.clear();
+            self.chords.prepare(state);
             self.repeat(state, end);
         }
         if is_due {

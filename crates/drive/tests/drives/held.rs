@@ -4,8 +4,11 @@
 
 use crate::chains::chain;
 use crate::lottery::{Draw, deal, on_rows};
-use crate::parts::{FOOT_SLIDER, contact, damped, damper, event, foot_and_slider, named, p1, plan};
+use crate::parts::{
+    FOOT_SLIDER, contact, damped, damper, event, foot_and_slider, named, p1, plan, push, wave,
+};
 use crate::soak::pressed;
+use std::f64::consts::TAU;
 use stickslip_contact::Profile;
 use stickslip_drive::scene::{Normal, Scene, Side, Varying};
 use stickslip_drive::{
@@ -153,20 +156,35 @@ fn no_number_depends_on_the_end() {
 /// With an early end, a resumed run ends with the same period.
 #[test]
 fn an_early_end_is_found_again() {
-    let model = Model::new(&p1()).unwrap();
-    let steady = Some(UntilSteady { waveform: 0, body: 1, change: 1e-4 });
     let frames = Stepper::Frames { length: 20e-6, accuracy: 1e-3 };
-    for stepper in [Stepper::Event { tolerance: 1e-8 }, Stepper::Verlet { step: 1e-6 }, frames] {
-        let asked = Plan { until_steady: steady, ..plan(stepper, 1000.0 * PERIOD) };
-        let start = model.start(&asked).unwrap();
-        let (end, _) = finished(&model, &asked, start.clone(), false).unwrap();
-        let mut first = Run::new(&model, &asked, start).unwrap();
-        first.approach(&mut ()).unwrap();
-        let (before, last) = (first.state().time(), end.time());
-        assert!(before < last && last < 100.0 * PERIOD, "{stepper:?}: {before} {last}");
-        let (on, _) = finished(&model, &asked, first.state().clone(), true).unwrap();
-        assert!(on == end, "{stepper:?} {} {}", on.time(), end.time());
+    let [verlet, rk4] = [Stepper::Verlet { step: 1e-6 }, Stepper::Rk4 { step: 1e-6 }];
+    for stepper in [Stepper::Event { tolerance: 1e-8 }, verlet, rk4, frames] {
+        ends_again(&p1(), stepper, 1e-4);
     }
+    // Contacts reverse or begin gross slip in some of the last steps.
+    let ball = contact(FOOT_SLIDER, Profile::paraboloid(1e-3).unwrap(), 0.15, 1.0);
+    for part in 0..32 {
+        let shape = Shape::Sine { amplitude: 1e-6, phase: TAU * f64::from(part) / 32.0, offset: 0.0 };
+        let scene = foot_and_slider(wave("drive", shape, PERIOD), 0.02, ball.clone());
+        let scene = Scene { loads: vec![push(1, -0.05)], ..scene };
+        for stepper in [Stepper::Verlet { step: 7e-6 }, Stepper::Rk4 { step: 31e-6 }, frames] {
+            ends_again(&scene, stepper, 1e-2);
+        }
+    }
+}
+
+fn ends_again(scene: &Scene, stepper: Stepper, change: f64) {
+    let model = Model::new(scene).unwrap();
+    let steady = Some(UntilSteady { waveform: 0, body: 1, change });
+    let asked = Plan { until_steady: steady, ..plan(stepper, 1000.0 * PERIOD) };
+    let start = model.start(&asked).unwrap();
+    let (end, _) = finished(&model, &asked, start.clone(), false).unwrap();
+    let mut first = Run::new(&model, &asked, start).unwrap();
+    first.approach(&mut ()).unwrap();
+    let (before, last) = (first.state().time(), end.time());
+    assert!(before < last && last < 100.0 * PERIOD, "{stepper:?}: {before} {last}");
+    let (on, _) = finished(&model, &asked, first.state().clone(), true).unwrap();
+    assert!(on == end, "{stepper:?} {} {}", on.time(), end.time());
 }
 
 /// Frames cut steps within the tolerance; closed-form intervals of P1 continue with the same bits.

@@ -142,29 +142,28 @@ impl<'a> Chords<'a> {
     ///
     /// Slip memories are committed to the start of the step, which must be repeated.
     pub(in crate::run) fn leaves(&mut self, state: &mut State, (t, y): (f64, &[f64])) -> bool {
-        let Some(branches) = self.branches.as_mut().filter(|_| !self.cuts) else { return false };
-        let mut ended = std::mem::take(&mut branches.ended);
+        if self.cuts {
+            return false;
+        }
         self.move_contacts(state, t, y);
-        ended.clear();
+        let Some(branches) = &mut self.branches else { return false };
+        branches.due.clear();
         for (c, motion) in self.motions.iter().enumerate() {
-            let keeps = |branch: &Branch| {
-                let left = self.branches.as_ref().map_or(0.0, |branches| branches.left(c, branch, motion));
-                left >= 0.0 && branch.sense() * motion.du >= 0.0
-            };
-            if state.modes[c].branch().is_some_and(|branch| !keeps(branch)) {
-                ended.push((c, 0.0));
+            let Some(branch) = state.modes[c].branch() else { continue };
+            if !(branches.left(c, branch, motion) >= 0.0 && branch.sense() * motion.du >= 0.0) {
+                branches.due.push((c, 0.0));
             }
         }
-        let leaves = !ended.is_empty();
-        if leaves {
-            self.settle(state);
-            ended.iter().for_each(|(c, _)| state.modes[*c] = Law::whole(0.0));
+        if branches.due.is_empty() {
+            return false;
         }
-        if let Some(branches) = &mut self.branches {
-            branches.ended = ended;
-            branches.current &= !leaves;
-        }
-        leaves
+        self.settle(state);
+        let due = self.branches.iter_mut().flat_map(|branches| {
+            branches.current = false;
+            branches.due.drain(..)
+        });
+        due.for_each(|(c, _)| state.modes[c] = Law::whole(0.0));
+        true
     }
 
     /// Returns the first branch end in the step to time t with components y, s.
