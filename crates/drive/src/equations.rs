@@ -283,7 +283,7 @@ impl Equations<'_> {
         let mut outputs = Outputs::new();
         // The output of a single block has one reader.
         if self.blocks.len() > 1 || !self.model.balanced.is_empty() {
-            self.compute_outputs(self.blocks.len() + self.model.balanced.len(), &at, &mut outputs);
+            self.compute_outputs(&at, &mut outputs);
         }
         let at = Once { at: &at, outputs: &outputs };
         self.contacts(&at, &mut sum, extra);

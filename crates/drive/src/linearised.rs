@@ -136,11 +136,18 @@ impl Model {
     /// Returns the longest stable step of a fixed-step stepper, s, with all contacts stuck at their largest indentation, including states
     /// of blocks. The result is infinite without oscillation and decay, and `None` for adaptive steppers.
     pub fn longest_step(&self, stepper: Stepper) -> Option<f64> {
-        let Reach { motion, state } = stepper.reach()?;
-        let parts = self.parts(|d| d.most);
-        let motions = parts.iter().map(|part| motion(part, part.highest_frequency()));
-        let motions = motions.fold(f64::INFINITY, f64::min);
-        Some(self.block_eigenvalues().iter().map(state).fold(motions, f64::min))
+        Some(self.frequency_and_limit(stepper.reach()?).1)
+    }
+
+    /// Returns the highest angular frequency with all contacts stuck at their largest indentation, rad/s, and the longest stable step of a
+    /// method, s, including states of blocks.
+    fn frequency_and_limit(&self, Reach { motion, state }: Reach) -> (f64, f64) {
+        let (mut swing, mut stable) = (0.0, f64::INFINITY);
+        for part in self.parts(|d| d.most) {
+            let frequency = part.highest_frequency();
+            (swing, stable) = (frequency.max(swing), stable.min(motion(&part, frequency)));
+        }
+        (swing, self.block_eigenvalues().iter().map(state).fold(stable, f64::min))
     }
 }
 

@@ -37,8 +37,9 @@ impl Equations<'_> {
         at.output(made).unwrap_or_else(|| self.make(made, at))
     }
 
-    /// Computes the first outputs of blocks and quasi-static coordinates, `count` at most.
-    pub(super) fn compute_outputs(&self, count: usize, at: &impl View, outputs: &mut Outputs) {
+    /// Computes the first outputs of blocks and quasi-static coordinates.
+    pub(super) fn compute_outputs(&self, at: &impl View, outputs: &mut Outputs) {
+        let count = self.blocks.len() + self.model.balanced.len();
         for made in 0..count.min(MOST_OUTPUTS) {
             let output = self.make(made, &Once { at, outputs });
             outputs.push(output);
@@ -88,14 +89,7 @@ impl Equations<'_> {
 
     /// Returns the value of an event function of block `k` at time t (s); `y` returns a component of the state.
     pub(crate) fn block_guard(&self, k: usize, guard: usize, t: f64, y: impl Fn(usize) -> f64) -> f64 {
-        let at = Components { t, y };
-        let mut outputs = Outputs::new();
-        // A block without blocks before it, or with a single one, reads each output once.
-        if k > 1 {
-            self.compute_outputs(k, &at, &mut outputs);
-        }
-        let at = Once { at: &at, outputs: &outputs };
-        self.ask_block(k, &at, |block, standing, at| block.guard(guard, standing, at))
+        self.ask_block(k, &Components { t, y }, |block, standing, at| block.guard(guard, standing, at))
     }
 
     /// Returns the kind of event and the new law after a zero crossing of an event function of block `k`.

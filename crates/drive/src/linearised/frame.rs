@@ -29,15 +29,8 @@ impl Model {
     /// ω is the highest natural angular frequency in full stick at the largest depths, or the highest angular frequency of a waveform, if
     /// larger.
     pub fn substeps(&self, length: f64, accuracy: f64) -> f64 {
-        let (mut swing, mut stable) = (0.0, f64::INFINITY);
-        for part in self.parts(|d| d.most) {
-            let frequency = part.highest_frequency();
-            swing = f64::max(swing, frequency);
-            stable = f64::min(stable, (Reach::RK4.motion)(&part, frequency));
-        }
-        let blocks = self.block_eigenvalues();
-        let of_blocks = blocks.iter().map(|rate| rate.modulus()).fold(0.0, f64::max);
-        stable = blocks.iter().map(Reach::RK4.state).fold(stable, f64::min);
+        let (swing, stable) = self.frequency_and_limit(Reach::RK4);
+        let of_blocks = self.block_eigenvalues().iter().map(|rate| rate.modulus()).fold(0.0, f64::max);
         // Motions with other dampers have decayed, but slip changes the damping of a contact.
         let is_damped = self.contacts.iter().any(Contact::is_damped);
         let settling = if is_damped { of_blocks.max(self.paces().fading) } else { of_blocks };

@@ -61,13 +61,12 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         }
         // Counted before the rows, whose evaluations do not belong to the run.
         state.counts.evaluations += self.swing.evaluations - spent;
-        let input = self.input_at(&to);
         if self.output.due(to.t) {
-            self.write_on_the_way(state, (to, input), record);
+            self.write_on_the_way(state, to, record);
         }
         // Both may be true at the same time: zero crossings and corner are then handled together.
         let (is_event, is_corner) = (to.t == event.t, to.t == self.horizon.corner);
-        self.land(state, (to, input), is_event || is_corner)?;
+        self.land(state, to, is_event || is_corner)?;
         self.watch.fired.clear();
         if is_event {
             self.collect_reached(state);
@@ -114,9 +113,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// A steady step length ends the run at that period end.
     #[inline(never)]
     fn leap_over_steps(&mut self, state: &State, to: PhasePoint) -> PhasePoint {
-        let (layout, at_end) = (self.setting.layout, (to, self.input_at(&to)));
-        let mut leap = Leap { swing: &mut self.swing, takeoff: self.takeoff, layout, state, to: at_end };
-        let end = self.horizon.take_periods(state, &mut leap, (to.t, &mut self.output.components));
+        let mut y = std::mem::take(&mut self.output.components);
+        let layout = self.setting.layout;
+        let mut leap = Leap { swing: &mut self.swing, takeoff: self.takeoff, layout, state, to };
+        let end = self.horizon.take_periods(state, &mut leap, (to.t, &mut y));
+        self.output.components = y;
         let Some(end) = end else { return to };
         self.end_at(end);
         if end < to.t { self.swing.at(end) } else { to }
@@ -124,10 +125,11 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
 
     /// Writes the output that is due within the closed-form step.
     #[inline(never)]
-    fn write_on_the_way(&mut self, state: &State, to: (PhasePoint, f64), record: &mut dyn Record) {
-        let (eq, layout) = (self.setting.plain(state), self.setting.layout);
+    fn write_on_the_way(&mut self, state: &State, to: PhasePoint, record: &mut dyn Record) {
+        let eq = self.setting.plain(state);
+        let layout = self.setting.layout;
         let mut leap = Leap { swing: &mut self.swing, takeoff: self.takeoff, layout, state, to };
-        self.output.take((&eq, state), &mut leap, (to.0.t, self.setting.tolerance), record);
+        self.output.take((&eq, state), &mut leap, (to.t, self.setting.tolerance), record);
     }
 
     /// Returns the input work at a point of the closed-form step, J. It counts from the start of the step, even across interruptions.
@@ -135,20 +137,14 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         input(&self.swing, self.takeoff, place)
     }
 
-    /// Moves the state to a point of the closed-form step, with the input work there, without committing memories. If the interval `ends`,
-    /// counts one step.
+    /// Moves the state to a point of the closed-form step without committing memories. If the interval `ends`, counts one step.
     ///
     /// Fails if position or velocity is not finite.
-    fn land(
-        &mut self,
-        state: &mut State,
-        (to, input): (PhasePoint, f64),
-        ends: bool,
-    ) -> Result<(), RunError> {
+    fn land(&mut self, state: &mut State, to: PhasePoint, ends: bool) -> Result<(), RunError> {
         if let Some(i) = beyond(&[to.x, to.v]) {
             return Err(self.setting.model.not_finite(to.t, i));
         }
-        state.y[self.setting.layout.input()] = input;
+        state.y[self.setting.layout.input()] = self.input_at(&to);
         (state.y[0], state.y[1]) = (to.x, to.v);
         state.t = to.t;
         // The slip memories commit one straight path at the event, whatever interrupted the leap.
@@ -207,8 +203,7 @@ struct Leap<'r, 'a> {
     takeoff: Option<f64>,
     layout: Layout,
     state: &'r State,
-    /// End of the motion, and the input work there, J.
-    to: (PhasePoint, f64),
+    to: PhasePoint,
 }
 
 /// Returns the input work at a point of the closed-form motion, J.
@@ -219,7 +214,7 @@ fn input(swing: &Swing<'_>, takeoff: Option<f64>, place: &PhasePoint) -> f64 {
 impl Leap<'_, '_> {
     fn at(&mut self, t: f64) -> PhasePoint {
         match t {
-            _ if t >= self.to.0.t => self.to.0,
+            _ if t >= self.to.t => self.to,
             _ if t == self.state.t => PhasePoint { t, x: self.state.y[0], v: self.state.y[1] },
             _ => self.swing.at(t),
         }
@@ -250,9 +245,7 @@ impl Stretch for Leap<'_, '_> {
         let place = self.at(t);
         y.copy_from_slice(&self.state.y);
         (y[0], y[1]) = (place.x, place.v);
-        // The work at the end is known.
-        let (end, work) = self.to;
-        y[self.layout.input()] = if t >= end.t { work } else { input(self.swing, self.takeoff, &place) };
+        y[self.layout.input()] = input(self.swing, self.takeoff, &place);
     }
 
     /// Between velocities of opposite sign there is one turning point. Between velocities of the same sign there are two or none, because
