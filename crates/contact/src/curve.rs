@@ -33,7 +33,7 @@ mod trial;
 mod words;
 
 pub use ahead::Since;
-pub use branch::{Branch, Dragged};
+pub use branch::{Branch, Dragged, Lead};
 pub use course::Course;
 pub use fixed_depth::FixedDepthBranch;
 pub use legs::Legs;

@@ -1,8 +1,8 @@
 //! Common interface of the two contact engines: memory curve and row of springs.
 
 use crate::{
-    Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Merged, Motion, Move, Outcome, Response,
-    Row, Segment, Since, SpringState, Springs,
+    Apex, Branch, ContactError, Course, Curve, Dragged, Interface, Lead, Merged, Motion, Move, Outcome,
+    Response, Row, Segment, Since, SpringState, Springs,
 };
 use std::sync::Arc;
 
@@ -83,6 +83,15 @@ pub trait Branching {
     ///
     /// Breakpoints within `slack` (m) of the limit line count as reached.
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch;
+    /// Returns the branch that a damped contact reaches ahead of its slip front; see [`Curve::lead`].
+    fn lead(
+        &self,
+        law: &Interface,
+        branch: &Branch,
+        at: &Motion,
+        lengths: (f64, f64, f64),
+        turned: bool,
+    ) -> Lead;
     /// Returns force and slip front at the end of a straight path, along the limit line of direction `sense`.
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged;
     /// Returns the friction work of a straight path that [`Branch::friction_power`] does not contain, J.
@@ -175,6 +184,16 @@ impl Branching for Curve {
     }
     fn branch(&self, law: &Interface, sense: f64, slack: f64) -> Branch {
         Self::branch(self, law, sense, slack)
+    }
+    fn lead(
+        &self,
+        law: &Interface,
+        branch: &Branch,
+        at: &Motion,
+        lengths: (f64, f64, f64),
+        turned: bool,
+    ) -> Lead {
+        Self::lead(self, law, branch, at, lengths, turned)
     }
     fn dragged(&self, law: &Interface, sense: f64, to: Apex) -> Dragged {
         Self::dragged(self, law, sense, to)

@@ -11,7 +11,7 @@ pub use guard::{Guard, NEARNESS, bands};
 pub use response::GrowthRates;
 
 use crate::words::{Words, push};
-use crate::{Branch, Change, Course, Interface, Lull, Memory, Motion, Slack, SpringRow};
+use crate::{Branch, Change, Course, Interface, Lead, Lull, Memory, Motion, Slack, SpringRow};
 
 /// Constants of a contact that its laws need besides the memory.
 pub trait Site {
@@ -59,6 +59,15 @@ impl Load {
     pub fn is_constant(self) -> bool {
         matches!(self, Self::Constant(_))
     }
+
+    /// Returns M(d), m², which is precomputed at constant indentation.
+    #[inline]
+    pub fn reduced_force(self, law: &Interface, d: f64) -> f64 {
+        match self {
+            Self::Constant(reduced_force) => reduced_force,
+            _ => law.reduced_force(d),
+        }
+    }
 }
 
 /// Law of a contact between two events.
@@ -73,7 +82,7 @@ enum Form {
     /// Growth in full stick; the force is a state.
     Grow,
     /// Slip that spreads along one branch of the memory curve.
-    Slip(Branch),
+    Slip(Branch, Lead),
     /// Linear law of a row of springs until the next spring touches, separates, slips or sticks.
     Lull {
         /// Coefficients of the law.
@@ -99,7 +108,7 @@ impl Law {
 
     /// Returns the law along a branch of the memory curve.
     pub fn slip(branch: Branch) -> Self {
-        Self(Form::Slip(branch))
+        Self(Form::Slip(branch, Lead::NONE))
     }
 
     /// Returns whether the contact is open.
@@ -124,7 +133,7 @@ impl Law {
     #[inline]
     pub fn branch(&self) -> Option<&Branch> {
         match &self.0 {
-            Form::Slip(branch) => Some(branch),
+            Form::Slip(branch, _) => Some(branch),
             _ => None,
         }
     }
@@ -141,7 +150,7 @@ impl Law {
     /// Returns the event functions that are velocities of a slip edge.
     pub fn edges(&self) -> &'static [Guard] {
         match &self.0 {
-            Form::Slip(_) => &[Guard::Drag],
+            Form::Slip(..) => &[Guard::Drag],
             Form::Grow => &[Guard::Lower, Guard::Upper],
             _ => &[],
         }
@@ -151,7 +160,7 @@ impl Law {
     pub fn sense(&self) -> f64 {
         match &self.0 {
             Form::Open | Form::Grow => 0.0,
-            Form::Slip(branch) => branch.sense(),
+            Form::Slip(branch, _) => branch.sense(),
             Form::Whole { sense } | Form::Lull { sense, .. } => *sense,
         }
     }
@@ -159,7 +168,10 @@ impl Law {
     /// Shifts the origin of displacements back by `by` (m).
     pub fn shift(&mut self, by: f64) {
         match &mut self.0 {
-            Form::Slip(branch) => branch.shift(by),
+            Form::Slip(branch, lead) => {
+                branch.shift(by);
+                lead.shift(branch.sense(), by);
+            }
             Form::Lull { lull, .. } => lull.shift(by),
             Form::Open | Form::Grow | Form::Whole { .. } => {}
         }
@@ -167,13 +179,13 @@ impl Law {
 
     /// Whether all springs slip.
     pub fn is_gross(&self) -> bool {
-        matches!(&self.0, Form::Slip(branch) if branch.is_gross())
+        matches!(&self.0, Form::Slip(branch, _) if branch.is_gross())
     }
 
     /// Returns the direction in which all springs slip, +1 or -1; 0 if one sticks.
     pub fn gross(&self) -> f64 {
         match &self.0 {
-            Form::Slip(branch) if branch.is_gross() => branch.sense(),
+            Form::Slip(branch, _) if branch.is_gross() => branch.sense(),
             Form::Lull { lull, .. } => lull.gross(),
             _ => 0.0,
         }
@@ -183,7 +195,7 @@ impl Law {
     pub fn has_given_way(&self, site: &impl Site) -> bool {
         match &self.0 {
             Form::Open => true,
-            Form::Slip(branch) => branch.is_gross(),
+            Form::Slip(branch, _) => branch.is_gross(),
             Form::Lull { lull, .. } => lull.stiffness(site.interface()) == 0.0,
             Form::Grow | Form::Whole { .. } => false,
         }
@@ -217,9 +229,44 @@ impl Law {
             _ if site.is_inert() => Self::whole(0.0),
             (Some(_), Course::Grow) => Self(Form::Grow),
             (Some(branching), Course::Forward | Course::Backward) => {
-                Self::slip(branching.branch(memory.law(site.interface()), course.sense(), slack))
+                let interface = site.interface();
+                let mut law = Self::slip(branching.branch(memory.law(interface), course.sense(), slack));
+                if interface.damping() > 0.0 {
+                    law.aim_lead(site, memory, (at, None), tolerance);
+                }
+                law
             }
         }
+    }
+
+    /// Sets the branch that the damping of a slipping contact reaches at a motion.
+    ///
+    /// `fired` is the event function of the lead that has crossed zero, with the length left by rounding (m).
+    #[inline(never)]
+    pub fn aim_lead(
+        &mut self,
+        site: &impl Site,
+        memory: &Memory,
+        (at, fired): (&Motion, Option<(Guard, f64)>),
+        tolerance: f64,
+    ) {
+        let law = site.interface();
+        let (Form::Slip(branch, lead), Some(branching)) = (&mut self.0, memory.branching()) else { return };
+        // The force of a contact that has broken loose lies on other branches.
+        if law.kinetic().is_some() {
+            return;
+        }
+        let near = 2.0 * Guard::Ahead.bands(site, tolerance, at.u).1;
+        let (slack, turned) = match fired {
+            Some((Guard::Ahead, left)) => (near + left, false),
+            Some((Guard::Behind, left)) => (-near - left, false),
+            Some((Guard::Turn, _)) => (0.0, !lead.is_turned()),
+            // At constant depth the lead never turns before the slip.
+            _ => (0.0, !site.load().is_constant() && branch.sense() * at.du < 0.0),
+        };
+        let reach = branch.sense() * (branch.sense() * law.damping() * at.du).max(0.0);
+        let lengths = (reach, slack, near + slack.abs());
+        *lead = branching.lead(memory.law(law), branch, at, lengths, turned);
     }
 
     /// Returns the law of a row with the motion `at` after a change of its springs. Rounding may stop the motion short of the
@@ -258,9 +305,12 @@ impl Law {
         match &self.0 {
             Form::Open => words.push(0),
             Form::Grow => words.push(1),
-            Form::Slip(branch) => {
-                words.push(2);
+            Form::Slip(branch, lead) => {
+                words.push(if lead.is_some() { 5 } else { 2 });
                 branch.write(words);
+                if lead.is_some() {
+                    lead.write(words);
+                }
             }
             Form::Whole { sense } => {
                 words.push(3);
@@ -279,7 +329,8 @@ impl Law {
         Some(Self(match words.word()? {
             0 => Form::Open,
             1 => Form::Grow,
-            2 => Form::Slip(Branch::read(interface, words)?),
+            2 => Form::Slip(Branch::read(interface, words)?, Lead::NONE),
+            5 => Form::Slip(Branch::read(interface, words)?, Lead::read(words)?),
             3 => Form::Whole { sense: words.finite()? },
             4 => Form::Lull { lull: Lull::read(interface, words)?, sense: words.finite()? },
             _ => return None,

@@ -35,7 +35,7 @@ mod row;
 mod similarity;
 mod words;
 
-pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Legs, Merged, Since};
+pub use curve::{Branch, Course, Curve, Dragged, FixedDepthBranch, Lead, Legs, Merged, Since};
 pub use engine::{Branching, Engine, Memory, Spring, SpringRow, Tangential};
 pub use fields::{Field, Fields, FrictionMap, Zone, ZoneKind};
 pub use first_loading::{FirstLoading, FirstLoadingError, NormalGiven, TangentialGiven};

@@ -311,9 +311,15 @@ pub(crate) fn fired(contact: &Contact, guard: Guard, law: &Law, at: &Motion) -> 
         Guard::Drag if law.is_gross() => (contact.gross_slip()[1], turned),
         Guard::Drag | Guard::Side => (EventKind::Reversal, turned),
         // Changes of single springs are not recorded; the kind is a placeholder.
-        Guard::Piece | Guard::Edge | Guard::Forward | Guard::Backward | Guard::Rise | Guard::Sink => {
-            (EventKind::LoopClosed, same)
-        }
+        Guard::Piece
+        | Guard::Ahead
+        | Guard::Behind
+        | Guard::Turn
+        | Guard::Edge
+        | Guard::Forward
+        | Guard::Backward
+        | Guard::Rise
+        | Guard::Sink => (EventKind::LoopClosed, same),
         Guard::Lower => (EventKind::SlipBegins, Course::Forward),
         Guard::Upper => (EventKind::SlipBegins, Course::Backward),
         Guard::Contact => (EventKind::LiftOff, Course::Open),

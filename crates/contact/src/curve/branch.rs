@@ -17,11 +17,9 @@ use crate::{Apex, Interface, Motion};
 /// Branch of the hysteresis: a slip direction and the piece of the memory curve that the limit line crosses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
-    /// Direction σ.
-    pub(super) sense: f64,
     /// Slope κ of the friction limit.
     pub(super) slope: f64,
-    /// Factor G\*σ.
+    /// Factor G\*σ; its sign is the direction σ.
     pub(super) factor: f64,
     /// Level ℓ₁ at which the piece ends; ∞ in gross slip.
     pub(super) level: f64,
@@ -63,7 +61,7 @@ impl Branch {
     /// [`Curve::dragged`] then gives the force.
     #[inline]
     pub fn covers(&self, d: f64, u: f64) -> bool {
-        self.sense * u - self.slope * d >= self.entry
+        self.sense() * u - self.slope * d >= self.entry
     }
 
     /// Returns the tangential force F_x at (d, u), N. `reduced_force` is M(d), m².
@@ -91,7 +89,7 @@ impl Branch {
         let stiffness =
             if self.is_gross() { 0.0 } else { gain * law.profile().reduced_stiffness(self.front(d, u)) };
         let modulus = law.tangential_modulus();
-        let coupling = self.sense * self.slope * (law.profile().reduced_stiffness(d) - stiffness);
+        let coupling = self.sense() * self.slope * (law.profile().reduced_stiffness(d) - stiffness);
         [modulus * stiffness, modulus * coupling]
     }
 
@@ -118,18 +116,18 @@ impl Branch {
             reduced * (-self.excess) / profile.reduced_stiffness(d) * self.flow
         };
         let margin = (front - self.height) / self.flow;
-        Some(self.sense * (self.level - margin + self.slope * d))
+        Some(self.sense() * (self.level - margin + self.slope * d))
     }
 
     /// Returns the distance that the limit line can move until the end of the piece, m; ∞ in gross slip.
     #[inline]
     pub fn margin(&self, d: f64, u: f64) -> f64 {
-        self.level - (self.sense * u - self.slope * d)
+        self.level - (self.sense() * u - self.slope * d)
     }
 
     /// Writes the state of the branch as words.
     pub fn write(&self, words: &mut Vec<u64>) {
-        words.push(u64::from(self.sense > 0.0));
+        words.push(u64::from(self.sense() > 0.0));
         push(words, [self.level, self.entry, self.flow, self.height, self.offset, self.excess]);
     }
 
@@ -151,7 +149,6 @@ impl Branch {
     /// Returns the gross slip branch of a direction.
     fn gross(law: &Interface, sense: f64) -> Self {
         Self {
-            sense,
             slope: law.stick_slope(),
             factor: law.tangential_modulus() * sense,
             level: f64::INFINITY,
@@ -165,13 +162,14 @@ impl Branch {
 
     /// Moves the origin of displacements: all displacements grow by `by` (m).
     pub fn shift(&mut self, by: f64) {
-        self.level += self.sense * by;
-        self.entry += self.sense * by;
+        self.level += self.sense() * by;
+        self.entry += self.sense() * by;
     }
 
     /// Returns the slip direction: +1 forward, -1 backward.
+    #[inline(always)]
     pub fn sense(&self) -> f64 {
-        self.sense
+        1.0_f64.copysign(self.factor)
     }
 
     /// Returns the slope κ of its friction limit.
@@ -187,7 +185,7 @@ impl Branch {
     #[inline(always)]
     pub fn drag(&self, law: &Interface, at: &Motion, reduced_force: f64) -> [f64; 2] {
         let Motion { d, u, dd, du } = *at;
-        let drive = law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd);
+        let drive = law.tangential_modulus() * self.slope * (self.sense() * du - self.slope * dd);
         if self.is_gross() {
             return [self.factor * (self.slope * reduced_force), drive * reduced_force];
         }
@@ -212,7 +210,109 @@ impl Branch {
         let limit = profile.reduced_force(d)
             - profile.reduced_force(front)
             - (d - front) * profile.reduced_stiffness(front);
-        law.tangential_modulus() * self.slope * (self.sense * du - self.slope * dd) * limit
+        law.tangential_modulus() * self.slope * (self.sense() * du - self.slope * dd) * limit
+    }
+}
+
+/// Branch of the memory curve that a damped contact reaches with its lead βu̇, ahead of the slip front.
+///
+/// It has the direction and the limit of the branch of the slip front, with which it is used.
+// Kept small: laws are copied at every event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lead {
+    level: f64,
+    entry: f64,
+    flow: f64,
+    height: f64,
+    offset: f64,
+    excess: f64,
+    /// Level of the limit line at which the branch begins, m: -∞ where the slip front itself is on the branch, ∞ for a lead against the
+    /// direction of slip, the largest number if there is none.
+    floor: f64,
+}
+
+impl Lead {
+    /// No branch: the slip memory gives the force.
+    pub const NONE: Self =
+        Self { level: 0.0, entry: 0.0, flow: 0.0, height: 0.0, offset: 0.0, excess: 0.0, floor: f64::MAX };
+
+    fn of(branch: &Branch, floor: f64) -> Self {
+        let Branch { level, entry, flow, height, offset, excess, .. } = *branch;
+        Self { level, entry, flow, height, offset, excess, floor }
+    }
+
+    fn branch(&self, front: &Branch) -> Branch {
+        let Self { level, entry, flow, height, offset, excess, .. } = *self;
+        Branch { level, entry, flow, height, offset, excess, ..*front }
+    }
+
+    /// Returns whether there is a branch.
+    #[inline]
+    pub fn is_some(&self) -> bool {
+        self.floor != f64::MAX
+    }
+
+    /// Returns whether the lead points against the direction of slip, as in a contact that shrinks while it is held back.
+    #[inline]
+    pub fn is_turned(&self) -> bool {
+        self.floor == f64::INFINITY
+    }
+
+    /// Returns the force F_x (N) of a contact at (d, u) with a lead (m); `None` where no smooth form is valid.
+    ///
+    /// `front` is the branch of the slip front, with the force `elastic` (N). `reduced_force` returns M(d), m². The force continues
+    /// smoothly where the lead or the slip front turns.
+    #[inline]
+    pub fn force(
+        &self,
+        law: &Interface,
+        front: &Branch,
+        ((d, u), lead): ((f64, f64), f64),
+        (elastic, reduced_force): (f64, impl FnOnce() -> f64),
+    ) -> Option<f64> {
+        if !self.is_turned() {
+            let branch = self.branch(front);
+            let holds = self.is_some() && branch.covers(d, u + lead);
+            return holds.then(|| branch.force(law, d, u + lead, reduced_force()));
+        }
+        // The lead turns back on the limit line.
+        let least = if front.is_gross() { 0.0 } else { front.front(d, u).max(0.0) };
+        let height = d + front.sense() * lead / (2.0 * front.slope);
+        let turned = || reduced_force() - law.profile().reduced_force(height);
+        let holds = front.covers(d, u) && height >= least;
+        holds.then(|| elastic - 2.0 * front.factor * front.slope * turned())
+    }
+
+    /// Returns how far the lead may still grow and shrink until it leaves the branch, m; `u` includes the lead.
+    #[inline]
+    pub fn margins(&self, front: &Branch, d: f64, u: f64) -> [f64; 2] {
+        if self.is_turned() || !self.is_some() {
+            return [f64::INFINITY; 2];
+        }
+        [self.branch(front).margin(d, u), front.sense() * u - front.slope * d - self.floor]
+    }
+
+    pub(crate) fn shift(&mut self, sense: f64, by: f64) {
+        let finite = [&mut self.level, &mut self.entry, &mut self.floor];
+        finite.into_iter().filter(|level| **level != f64::MAX).for_each(|level| *level += sense * by);
+    }
+
+    pub(crate) fn write(&self, words: &mut Vec<u64>) {
+        let Self { level, entry, flow, height, offset, excess, floor } = *self;
+        push(words, [level, entry, flow, height, offset, excess, floor]);
+    }
+
+    pub(crate) fn read(words: &mut Words<'_>) -> Option<Self> {
+        let [level, entry, flow, height, offset, excess, floor] = [(); 7].map(|()| words.number());
+        Some(Self {
+            level: level?,
+            entry: entry?,
+            flow: flow?,
+            height: height?,
+            offset: offset?,
+            excess: excess?,
+            floor: floor?,
+        })
     }
 }
 
@@ -235,12 +335,15 @@ impl Curve {
         if let Some(kinetic) = law.kinetic().filter(|_| self.slides == sense) {
             return Branch::gross(kinetic, sense);
         }
-        let slope = law.stick_slope();
-        let level = sense * self.apex.u - slope * self.apex.d + slack;
-        let gross = Branch::gross(law, sense);
+        self.crossed(law, sense, sense * self.apex.u - law.stick_slope() * self.apex.d + slack).0
+    }
+
+    /// Returns the branch of direction `sense` whose limit line has a level (m), and the index of the breakpoint above its last piece.
+    fn crossed(&self, law: &Interface, sense: f64, level: f64) -> (Branch, usize) {
+        let (slope, gross) = (law.stick_slope(), Branch::gross(law, sense));
         // A piece parallel to the limit line has no crossing and is shifted as a whole.
         let crosses = |w: &[Knot]| w[0].level(sense, slope) > level && !cut::runs_along(slope, sense, &w[1]);
-        let Some(top) = self.knots.windows(2).rposition(crosses) else { return gross };
+        let Some(top) = self.knots.windows(2).rposition(crosses) else { return (gross, 0) };
         // The pieces of one growth path form one branch, which ends where the path began. The breakpoints between them come from time steps
         // and are no events.
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
@@ -248,7 +351,7 @@ impl Curve {
         let foot = if cut::runs_along(slope, sense, &self.knots[foot + 1]) { top } else { foot };
         let (base, end) = (&self.knots[foot], &self.knots[foot + 1]);
         let gain = sense * end.gain;
-        Branch {
+        let branch = Branch {
             level: base.level(sense, slope),
             entry: if foot < top { end.level(sense, slope) } else { f64::NEG_INFINITY },
             flow: 1.0 / (slope - sense * end.slope),
@@ -256,7 +359,36 @@ impl Curve {
             offset: sense * base.shear - gain * base.reduced_force,
             excess: gain - slope,
             ..gross
-        }
+        };
+
+        // A branch with an entry lasts to the end of its path; the memory gives the force on the later pieces.
+        let later = self.knots[top + 1..].iter().take_while(|knot| foot < top && knot.joined).count();
+        (branch, top + 1 + later)
+    }
+
+    /// Returns the branch that a damped contact reaches ahead of its slip front, where it slips along `branch`.
+    ///
+    /// `at` is the motion and `lead` is βu̇, m. The lead counts as longer by `slack` (m), which is negative where it has become shorter; lengths
+    /// below `near` (m) count as zero.
+    pub fn lead(
+        &self,
+        law: &Interface,
+        branch: &Branch,
+        at: &Motion,
+        (lead, slack, near): (f64, f64, f64),
+        turned: bool,
+    ) -> Lead {
+        let (sense, slope) = (branch.sense(), branch.slope);
+        let level = sense * (at.u + lead) - slope * at.d + slack;
+        let (ahead, begin) = self.crossed(law, sense, level);
+        let same = (ahead.level, ahead.entry) == (branch.level, branch.entry);
+        let floor = match self.knots.get(begin) {
+            _ if turned => f64::INFINITY,
+            Some(begin) if !same => begin.level(sense, slope).min(level - near),
+            // The slip front itself is on this branch.
+            _ => f64::NEG_INFINITY,
+        };
+        Lead::of(&ahead, floor)
     }
 
     /// Returns force and slip front at the end of a straight path, for the limit line of direction `sense`.

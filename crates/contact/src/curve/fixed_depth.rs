@@ -64,7 +64,7 @@ impl Branch {
         if self.is_gross() {
             let base = self.factor * limit;
             return FixedDepthBranch {
-                sense: self.sense,
+                sense: self.sense(),
                 level: 0.0,
                 flow: 0.0,
                 height: 0.0,
@@ -73,7 +73,7 @@ impl Branch {
             };
         }
         FixedDepthBranch {
-            sense: self.sense,
+            sense: self.sense(),
             level: self.level + self.slope * d,
             flow: self.flow,
             height: self.height,

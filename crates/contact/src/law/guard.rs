@@ -9,6 +9,8 @@
 //! | +, + or -, - | slip spreads forward or backward | `Drag`, `Piece`, `Contact` |
 //! | +, - | the contact shrinks | the same and `Side` |
 //! | -, + | grows in full stick | `Lower`, `Upper`, `Contact` |
+//!
+//! A damped contact that slips has three more, `Ahead`, `Behind` and `Turn`, for kinks of the damping force.
 
 use super::{Form, Law, Site};
 use crate::{Change, Memory, Motion};
@@ -26,6 +28,13 @@ pub enum Guard {
     Lower,
     /// κḋ + u̇: positive in full stick, zero where backward slip begins.
     Upper,
+    /// Length that the lead βu̇ of a damped contact may grow until it reaches the next piece of slip memory, m. It and the next event function
+    /// detect kinks of the damping force, which end a step without an event in the record.
+    Ahead,
+    /// Length that the lead of a damped contact may shrink until it reaches the previous piece of slip memory, m.
+    Behind,
+    /// ±u̇: positive while the lead of a damped contact keeps its direction.
+    Turn,
     /// d: positive in contact.
     Contact,
     /// -d: positive while the contact is open.
@@ -80,10 +89,19 @@ impl Guard {
             (Form::Open, false) => &[Self::Gap],
             (Form::Grow, _) => &[Self::Lower, Self::Upper, Self::Contact],
             // In gross slip there is no piece of memory and no old curve.
-            (Form::Slip(branch), true) if branch.is_gross() => &[Self::Drag],
-            (Form::Slip(branch), false) if branch.is_gross() => &[Self::Drag, Self::Contact],
-            (Form::Slip(_), true) => &[Self::Drag, Self::Piece],
-            (Form::Slip(_), false) => &[Self::Drag, Self::Piece, Self::Side, Self::Contact],
+            (Form::Slip(branch, _), true) if branch.is_gross() => &[Self::Drag],
+            (Form::Slip(branch, lead), false) if branch.is_gross() && !lead.is_some() => {
+                &[Self::Drag, Self::Contact]
+            }
+            (Form::Slip(branch, _), false) if branch.is_gross() => &[Self::Drag, Self::Turn, Self::Contact],
+            (Form::Slip(_, lead), true) if !lead.is_some() => &[Self::Drag, Self::Piece],
+            (Form::Slip(_, lead), false) if !lead.is_some() => {
+                &[Self::Drag, Self::Piece, Self::Side, Self::Contact]
+            }
+            (Form::Slip(..), true) => &[Self::Drag, Self::Piece, Self::Ahead, Self::Behind],
+            (Form::Slip(..), false) => {
+                &[Self::Drag, Self::Piece, Self::Ahead, Self::Behind, Self::Turn, Self::Side, Self::Contact]
+            }
             (Form::Whole { .. }, true) => &[Self::Drag],
             (Form::Whole { .. }, false) => &[Self::Drag, Self::Contact],
         }
@@ -106,9 +124,16 @@ impl Guard {
             (Self::Sink, Form::Lull { lull, .. }) => at.d - lull.top(),
             (Self::Edge | Self::Forward | Self::Backward | Self::Rise | Self::Sink, _) => f64::INFINITY,
             // s₊ or s₋: zero at a reversal under constant depth, or at the start of full stick under growing depth.
-            (Self::Drag, Form::Slip(branch)) => branch.sense() * at.du - branch.slope() * at.dd,
+            (Self::Drag, Form::Slip(branch, _)) => branch.sense() * at.du - branch.slope() * at.dd,
             (Self::Drag, _) => law.sense() * at.du - slope * at.dd,
-            (Self::Piece, Form::Slip(branch)) => branch.margin(at.d, at.u),
+            (Self::Piece, Form::Slip(branch, _)) => branch.margin(at.d, at.u),
+            (Self::Ahead | Self::Behind, Form::Slip(branch, lead)) => {
+                let [ahead, behind] = lead.margins(branch, at.d, at.u + site.interface().damping() * at.du);
+                if self == Self::Ahead { ahead } else { behind }
+            }
+            (Self::Turn, Form::Slip(branch, lead)) if lead.is_turned() => -branch.sense() * at.du,
+            (Self::Turn, _) => law.sense() * at.du,
+            (Self::Ahead | Self::Behind, _) => f64::INFINITY,
             (Self::Side, _) => Self::beside((memory, law), at)[0],
             (Self::Piece, _) => f64::INFINITY,
             (Self::Lower, _) => slope * at.dd - at.du,
@@ -133,9 +158,17 @@ impl Guard {
         matches!(self, Self::Drag | Self::Lower | Self::Upper)
     }
 
+    /// Whether it detects a kink of the damping force, which is no event.
+    pub fn is_lead(self) -> bool {
+        matches!(self, Self::Ahead | Self::Behind | Self::Turn)
+    }
+
     /// Whether it depends on positions only, not on velocities.
     pub fn is_length(self) -> bool {
-        !matches!(self, Self::Drag | Self::Lower | Self::Upper | Self::Edge)
+        !matches!(
+            self,
+            Self::Drag | Self::Lower | Self::Upper | Self::Edge | Self::Ahead | Self::Behind | Self::Turn
+        )
     }
 
     /// Returns the time derivative of the event function from the motion and (d̈, ü), for a contact that only bodies move.
@@ -151,7 +184,13 @@ impl Guard {
             (Self::Backward, _) => slope * at.dd + at.du,
             (Self::Rise, _) => -at.dd,
             (Self::Sink, _) => at.dd,
-            (Self::Drag, Form::Slip(branch)) => branch.sense() * pull - branch.slope() * bend,
+            (Self::Drag, Form::Slip(branch, _)) => branch.sense() * pull - branch.slope() * bend,
+            (Self::Turn, Form::Slip(branch, lead)) if lead.is_turned() => -branch.sense() * pull,
+            (Self::Turn, _) => law.sense() * pull,
+            (Self::Ahead | Self::Behind, _) => {
+                let grows = law.sense() * (at.du + site.interface().damping() * pull) - slope * at.dd;
+                if self == Self::Ahead { -grows } else { grows }
+            }
             (Self::Drag, _) => law.sense() * pull - slope * bend,
             (Self::Piece | Self::Side, _) => slope * at.dd - law.sense() * at.du,
             (Self::Lower, _) => slope * bend - pull,
@@ -168,10 +207,10 @@ impl Guard {
     pub fn bands(self, site: &impl Site, tolerance: f64, u: f64) -> (f64, f64) {
         let rounding = 4.0 * f64::EPSILON * u.abs();
         let (unit, rounding) = match self {
-            Self::Drag | Self::Lower | Self::Upper | Self::Edge => {
+            Self::Drag | Self::Lower | Self::Upper | Self::Edge | Self::Turn => {
                 (site.scale().displacement * site.scale().frequency, rounding * site.scale().frequency)
             }
-            Self::Piece | Self::Side | Self::Forward | Self::Backward => {
+            Self::Piece | Self::Side | Self::Ahead | Self::Behind | Self::Forward | Self::Backward => {
                 (site.scale().displacement, rounding)
             }
             // Travel along the slide does not affect the rounding of a depth.
@@ -190,7 +229,9 @@ impl Guard {
     /// is 0 for event functions that are lengths.
     pub fn noise(self, site: &impl Site, travel: f64) -> f64 {
         match self {
-            Self::Drag | Self::Lower | Self::Upper => NOISE * f64::EPSILON * travel * site.scale().frequency,
+            Self::Drag | Self::Lower | Self::Upper | Self::Turn => {
+                NOISE * f64::EPSILON * travel * site.scale().frequency
+            }
             _ => 0.0,
         }
     }

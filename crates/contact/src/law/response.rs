@@ -3,7 +3,7 @@
 //! The module computes elastic and friction force, viscous force of sticking springs, and the state derivatives of a contact that grows in
 //! full stick. All values are for one contact; the caller multiplies by the number of contacts. The slip memory is read only.
 
-use super::{Form, Law, Load, Site};
+use super::{Form, Law, Site};
 use crate::{Apex, Branch, Dragged, Memory, Motion, Move, Since};
 
 /// Time derivatives of the states and integrals of a contact that may grow in full stick.
@@ -30,15 +30,11 @@ impl Law {
         grown: impl FnOnce() -> f64,
     ) -> f64 {
         match &self.0 {
-            Form::Slip(branch) if !branch.covers(motion.d, motion.u) => {
+            Form::Slip(branch, _) if !branch.covers(motion.d, motion.u) => {
                 dragged((site, memory), branch, motion).force
             }
-            Form::Slip(branch) => {
-                // At constant indentation M(d) is precomputed.
-                let reduced_force = match site.load() {
-                    Load::Constant(reduced_force) => reduced_force,
-                    _ => site.interface().reduced_force(motion.d),
-                };
+            Form::Slip(branch, _) => {
+                let reduced_force = site.load().reduced_force(site.interface(), motion.d);
                 branch.force(site.interface(), motion.d, motion.u, reduced_force)
             }
             // Without friction the force is zero.
@@ -64,7 +60,7 @@ impl Law {
         match &self.0 {
             Form::Open => [0.0; 3],
             Form::Grow => [grown(), law.stick_stiffness(d), 0.0],
-            Form::Slip(branch) if branch.covers(d, u) => {
+            Form::Slip(branch, _) if branch.covers(d, u) => {
                 let force = branch.force(law, d, u, law.reduced_force(d));
                 let [stiffness, coupling] = branch.tangents(law, d, u);
                 let beyond = branch.beyond(d, u);
@@ -75,7 +71,7 @@ impl Law {
                 }
                 [force, stiffness, coupling]
             }
-            Form::Slip(branch) => {
+            Form::Slip(branch, _) => {
                 let Dragged { force, front } = dragged((site, memory), branch, motion);
                 let stiffness = law.stick_stiffness(front.clamp(0.0, d.max(0.0)));
                 let edge = branch.sense() * law.stick_slope();
@@ -127,11 +123,21 @@ impl Law {
     /// [`Memory::damped`].
     pub fn damped(&self, (site, memory): (&impl Site, &Memory), motion: &Motion, elastic: f64) -> [f64; 2] {
         let still = motion.d <= 0.0 || motion.du == 0.0;
+        if let Form::Slip(branch, lead) = &self.0 {
+            let law = site.interface();
+            let at = (motion.d, motion.u);
+            let reduced_force = || site.load().reduced_force(law, motion.d);
+            if let Some(damped) =
+                lead.force(law, branch, (at, law.damping() * motion.du), (elastic, reduced_force))
+            {
+                return [damped, damped - elastic];
+            }
+        }
         let (since, known) = match &self.0 {
             Form::Open => return [elastic, 0.0],
             _ if still => return [elastic, 0.0],
             // Beyond its end a law continues smoothly, and its force is not the elastic one.
-            Form::Slip(branch) => {
+            Form::Slip(branch, _) => {
                 let holds = branch.covers(motion.d, motion.u) && branch.margin(motion.d, motion.u) >= 0.0;
                 (Since::Slip(branch.sense()), holds)
             }
@@ -158,7 +164,7 @@ impl Law {
                 elastic: force * motion.du,
                 friction: 0.0,
             },
-            Form::Slip(branch) => {
+            Form::Slip(branch, _) => {
                 let front = front((site, memory), branch, motion);
                 let friction = branch.friction_power(site.interface(), front, motion);
                 GrowthRates { friction, ..GrowthRates::default() }

@@ -4,7 +4,8 @@ use crate::lottery::Lottery;
 use approx::assert_relative_eq;
 use std::sync::Arc;
 use stickslip_contact::{
-    Apex, Engine, Interface, Material, Memory, Motion, Pair, Profile, Segment, Since, Springs,
+    Apex, Course, Engine, Guard, Interface, Law, Load, Material, Memory, Motion, Pair, Profile, Scale,
+    Segment, Since, Site, Springs,
 };
 
 const RADIUS: f64 = 1e-3;
@@ -123,4 +124,78 @@ fn a_curved_growth_is_followed() {
         let allowed = if lead < 0.0 { 2e-2 } else { 1e-6 };
         assert_relative_eq!(found, exact, epsilon = allowed * MU * law.normal_force(DEPTH));
     }
+}
+
+/// Contact pressed by bodies.
+struct Pressed(Interface);
+
+impl Site for Pressed {
+    fn interface(&self) -> &Interface {
+        &self.0
+    }
+    fn load(&self) -> Load {
+        Load::Coupled
+    }
+    fn is_inert(&self) -> bool {
+        false
+    }
+    fn is_unguarded(&self) -> bool {
+        false
+    }
+    fn has_lulls(&self) -> bool {
+        false
+    }
+    fn scale(&self) -> Scale {
+        let displacement = self.0.gross_slip_displacement(2.0 * DEPTH);
+        Scale { depth: 2.0 * DEPTH, displacement, frequency: BETA.recip() }
+    }
+}
+
+/// After random paths the law of a slipping contact, on one branch until an event function of its lead crosses zero, has the force of
+/// springs clipped one by one, for leads with and against the slip. Beyond the zero crossing the law is aimed again.
+#[test]
+fn a_lead_on_one_branch_agrees_with_springs_clipped_one_by_one() {
+    let site = Pressed(law(BETA));
+    let law = &site.0;
+    let (mut with, mut against, mut crossed) = (0, 0, 0);
+    for seed in 0..60 {
+        let mut lottery = Lottery(seed);
+        let [mut curve, mut row] = engines(law, 4000);
+        for _ in 0..40 {
+            let from = curve.apex();
+            let to = Apex {
+                d: DEPTH * (1.9 * lottery.draw() + 0.05),
+                u: from.u + 2.0 * (lottery.draw() - 0.5) * law.gross_slip_displacement(DEPTH),
+            };
+            for memory in [&mut curve, &mut row] {
+                memory.commit(law, Segment::Straight(to)).unwrap();
+            }
+            let mut speed = || (lottery.draw() - 0.5) * law.gross_slip_displacement(to.d) / BETA;
+            let at = Motion { d: to.d, u: to.u, dd: speed() / law.stick_slope(), du: speed() };
+            let course = curve.course(law, at.d, at.dd, at.du);
+            if !matches!(course, Course::Forward | Course::Backward) {
+                continue;
+            }
+            let (mut force, elastic) =
+                (Law::of(&site, &curve, (course, &at), 0.0, 1e-9), curve.force(law, to));
+            let sense = force.sense();
+            let check = |force: &Law, at: &Motion| {
+                let [exact, found] = [damped(law, &row, at), force.damped((&site, &curve), at, elastic)[0]];
+                assert_relative_eq!(found, exact, epsilon = 3e-4 * MU * law.normal_force(2.0 * DEPTH));
+            };
+            check(&force, &at);
+            let count = if sense * at.du < 0.0 { &mut against } else { &mut with };
+            *count += 1;
+            let other = Motion { du: 3.0 * at.du, ..at };
+            if sense * at.du > 0.0 && Guard::Ahead.value(&site, (&curve, &force), &other) < 0.0 {
+                force.aim_lead(&site, &curve, (&other, Some((Guard::Ahead, 0.0))), 1e-9);
+                check(&force, &other);
+                assert!(Guard::Behind.value(&site, (&curve, &force), &at) < 0.0);
+                force.aim_lead(&site, &curve, (&at, Some((Guard::Behind, 0.0))), 1e-9);
+                check(&force, &at);
+                crossed += 1;
+            }
+        }
+    }
+    assert!(with > 200 && against > 200 && crossed > 100, "{with} {against} {crossed}");
 }

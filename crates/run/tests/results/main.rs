@@ -18,6 +18,7 @@ mod asked_for;
 mod between_rows;
 mod ceramic;
 mod damaged;
+mod damped;
 mod definitions;
 mod excursions;
 mod fed;

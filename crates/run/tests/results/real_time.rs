@@ -27,7 +27,7 @@ const DRIVES: [(&str, [f64; 2]); 11] = [
 ];
 
 /// Returns the rows of a run by an integrator up to a time, s.
-fn rows(stage: &Stage, stepper: Stepper, end: f64) -> Trace {
+pub(crate) fn rows(stage: &Stage, stepper: Stepper, end: f64) -> Trace {
     let model = &stage.job.model;
     let plan = Plan { until_steady: None, ..stage.plan(stepper, end) };
     let (mut run, mut trace) =

@@ -23,6 +23,8 @@ use stickslip_stepper::{Attempt, System};
 
 /// Time step of the finite difference of ḋ, as a fraction of the waveform's duration or of the contact's 1/ω.
 const BEND_AHEAD: f64 = 1e-5;
+/// Time after which a contact at rest has a velocity along its acceleration, s; 2⁻¹⁰⁰, so that no digit is lost.
+const INSTANT: f64 = 1.0 / (1_u128 << 100) as f64;
 
 impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     /// Sets the next law of every component with a zero crossing; after a corner, also of all contacts that the corner moves.
@@ -99,6 +101,16 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let motion = self.watch.motion_at_end(&self.interval, c, (state.t, &state.y));
         // Rounding of time or of a large displacement may stop before the zero. The remaining length then counts as used up.
         let left = |state: &State| guard.value(contact, state.law(c), &motion).max(0.0);
+        if guard.is_lead() {
+            // Another event function of the contact chooses the law anew.
+            let other = |fallen: &Fallen| matches!(fallen, Fallen::Contact(own, guard) if *own == c && !guard.is_lead());
+            if self.watch.fired.iter().any(other) {
+                return Ok(());
+            }
+            let (memory, at) = (&state.memories[c], (&motion, Some((guard, left(state)))));
+            state.modes[c].aim_lead(contact, memory, at, self.setting.tolerance);
+            return Ok(());
+        }
         if let Some(change) = guard.change() {
             let held = state.modes[c].gross();
             let at = (&motion, change, left(state));
@@ -366,18 +378,26 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
     pub(super) fn decide(&mut self, state: &mut State, c: usize) -> bool {
         let (course, motion) = self.next_course(state, c);
         let same = course.sense() != 0.0 && course.sense() == state.modes[c].sense();
-        // A branch that continues in its sense keeps its starting point.
-        (!same || state.modes[c].branch().is_none()) && self.set_law(state, c, (course, &motion), 0.0)
+        if !same || state.modes[c].branch().is_none() {
+            return self.set_law(state, c, (course, &motion), 0.0);
+        }
+        // A branch that continues in its sense keeps its starting point, but the lead jumps with the velocity.
+        let contact = &self.setting.model.contacts[c];
+        if contact.interface.damping() > 0.0 {
+            state.modes[c].aim_lead(contact, &state.memories[c], (&motion, None), self.setting.tolerance);
+        }
+        false
     }
 
-    /// Returns the course of a contact, with the direction of its motion in (d, u).
+    /// Returns the course of a contact, with its motion. For a contact at rest it is the motion an instant later.
     fn next_course(&mut self, state: &State, c: usize) -> (Course, Motion) {
         let contact = &self.setting.model.contacts[c];
         let eq = self.setting.plain(state);
         let mut motion = eq.motion(contact, state.t, |i| state.y[i]);
         // Near zero the signs of velocities mean nothing, and the following accelerations decide.
         if self.stands(contact, &motion) {
-            (motion.dd, motion.du) = self.push(state, c, &motion);
+            let (dd, du) = self.push(state, c, &motion);
+            (motion.dd, motion.du) = (dd * INSTANT, du * INSTANT);
         }
         (state.memories[c].course(&contact.interface, motion.d, motion.dd, motion.du), motion)
     }
