@@ -170,7 +170,7 @@ impl Law {
         match &mut self.0 {
             Form::Slip(branch, lead) => {
                 branch.shift(by);
-                lead.shift(branch.sense(), by);
+                lead.shift(branch.sense() * by);
             }
             Form::Lull { lull, .. } => lull.shift(by),
             Form::Open | Form::Grow | Form::Whole { .. } => {}

@@ -21,6 +21,12 @@ pub struct Branch {
     pub(super) slope: f64,
     /// Factor G\*σ; its sign is the direction σ.
     pub(super) factor: f64,
+    pub(super) piece: Piece,
+}
+
+/// Piece of the memory curve that the limit line of a direction σ crosses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Piece {
     /// Level ℓ₁ at which the piece ends; ∞ in gross slip.
     pub(super) level: f64,
     /// Level of the limit line at which the piece begins; -∞ for a single piece. At lower levels the limit line still crosses later pieces
@@ -36,23 +42,56 @@ pub struct Branch {
     pub(super) excess: f64,
 }
 
+impl Piece {
+    /// No piece: all of the contact slips.
+    const GROSS: Self = Self {
+        level: f64::INFINITY,
+        entry: f64::NEG_INFINITY,
+        flow: 0.0,
+        height: 0.0,
+        offset: 0.0,
+        excess: 0.0,
+    };
+
+    fn shift(&mut self, by: f64) {
+        self.level += by;
+        self.entry += by;
+    }
+
+    fn write(&self, words: &mut Vec<u64>) {
+        push(words, [self.level, self.entry, self.flow, self.height, self.offset, self.excess]);
+    }
+
+    fn read(words: &mut Words<'_>) -> Option<Self> {
+        let [level, entry, flow, height, offset, excess] = [(); 6].map(|()| words.number());
+        Some(Self {
+            level: level?,
+            entry: entry?,
+            flow: flow?,
+            height: height?,
+            offset: offset?,
+            excess: excess?,
+        })
+    }
+}
+
 impl Branch {
     /// Smallest positive height of a slip front, m. At this height the reduced stiffness m(h) is the width of the profile's flat, if any.
     pub const CENTRE: f64 = f64::MIN_POSITIVE;
 
     /// Returns whether the branch is gross slip.
     pub fn is_gross(&self) -> bool {
-        self.level == f64::INFINITY
+        self.piece.level == f64::INFINITY
     }
 
     /// Returns whether gross slip follows at the end of the branch.
     pub fn ends_in_the_centre(&self) -> bool {
-        self.height == 0.0 && !self.is_gross()
+        self.piece.height == 0.0 && !self.is_gross()
     }
 
     /// Returns the height of the breakpoint below the piece, m.
     pub fn foot(&self) -> f64 {
-        self.height
+        self.piece.height
     }
 
     /// Returns whether the branch is valid at (d, u).
@@ -61,7 +100,7 @@ impl Branch {
     /// [`Curve::dragged`] then gives the force.
     #[inline]
     pub fn covers(&self, d: f64, u: f64) -> bool {
-        self.sense() * u - self.slope * d >= self.entry
+        self.sense() * u - self.slope * d >= self.piece.entry
     }
 
     /// Returns the tangential force F_x at (d, u), N. `reduced_force` is M(d), m².
@@ -70,7 +109,7 @@ impl Branch {
         let front = if self.is_gross() {
             0.0
         } else {
-            self.excess * law.profile().reduced_force(self.front(d, u)) + self.offset
+            self.piece.excess * law.profile().reduced_force(self.front(d, u)) + self.piece.offset
         };
         self.factor * (front + self.slope * reduced_force)
     }
@@ -78,14 +117,14 @@ impl Branch {
     /// Returns the height h_c of the slip front at (d, u), m. Beyond the ends of the piece the front continues linearly.
     #[inline]
     pub fn front(&self, d: f64, u: f64) -> f64 {
-        self.height + self.margin(d, u) * self.flow
+        self.piece.height + self.margin(d, u) * self.piece.flow
     }
 
     /// Returns ∂F_x/∂u and ∂F_x/∂d at (d, u), N/m.
     ///
     /// ∂F/∂u = G\*(κ-γ)/(κ-σk) m(h_c), which is G\*m(h_c) on a straight piece (γ = σk). ∂F/∂d = σκ[G\*m(d) - ∂F/∂u].
     pub fn tangents(&self, law: &Interface, d: f64, u: f64) -> [f64; 2] {
-        let gain = -self.excess * self.flow;
+        let gain = -self.piece.excess * self.piece.flow;
         let stiffness =
             if self.is_gross() { 0.0 } else { gain * law.profile().reduced_stiffness(self.front(d, u)) };
         let modulus = law.tangential_modulus();
@@ -97,7 +136,7 @@ impl Branch {
     ///
     /// The value is negative while any spring sticks and -∞ in gross slip, which has no end.
     pub fn beyond(&self, d: f64, u: f64) -> f64 {
-        if self.is_gross() { f64::NEG_INFINITY } else { -self.front(d, u) / self.flow }
+        if self.is_gross() { f64::NEG_INFINITY } else { -self.front(d, u) / self.piece.flow }
     }
 
     /// Returns the displacement u at which the branch has the force F_x (N) at indentation d; `None` in gross slip.
@@ -108,62 +147,46 @@ impl Branch {
         if self.is_gross() {
             return None;
         }
-        let reduced = (force / self.factor - self.slope * reduced_force - self.offset) / self.excess;
+        let reduced =
+            (force / self.factor - self.slope * reduced_force - self.piece.offset) / self.piece.excess;
         let profile = law.profile();
         let front = if reduced > 0.0 {
             profile.height_of_reduced_force(reduced)
         } else {
-            reduced * (-self.excess) / profile.reduced_stiffness(d) * self.flow
+            reduced * (-self.piece.excess) / profile.reduced_stiffness(d) * self.piece.flow
         };
-        let margin = (front - self.height) / self.flow;
-        Some(self.sense() * (self.level - margin + self.slope * d))
+        let margin = (front - self.piece.height) / self.piece.flow;
+        Some(self.sense() * (self.piece.level - margin + self.slope * d))
     }
 
     /// Returns the distance that the limit line can move until the end of the piece, m; ∞ in gross slip.
     #[inline]
     pub fn margin(&self, d: f64, u: f64) -> f64 {
-        self.level - (self.sense() * u - self.slope * d)
+        self.piece.level - (self.sense() * u - self.slope * d)
     }
 
     /// Writes the state of the branch as words.
     pub fn write(&self, words: &mut Vec<u64>) {
         words.push(u64::from(self.sense() > 0.0));
-        push(words, [self.level, self.entry, self.flow, self.height, self.offset, self.excess]);
+        self.piece.write(words);
     }
 
     /// Reads a branch that [`Self::write`] wrote, for a contact with this interface. Returns `None` for invalid words.
     pub fn read(law: &Interface, words: &mut Words<'_>) -> Option<Self> {
         let sense = if words.flag()? { 1.0 } else { -1.0 };
-        let [level, entry, flow, height, offset, excess] = [(); 6].map(|()| words.number());
-        Some(Self {
-            level: level?,
-            entry: entry?,
-            flow: flow?,
-            height: height?,
-            offset: offset?,
-            excess: excess?,
-            ..Self::gross(law.kinetic().filter(|_| level == Some(f64::INFINITY)).unwrap_or(law), sense)
-        })
+        let piece = Piece::read(words)?;
+        let law = law.kinetic().filter(|_| piece.level == f64::INFINITY).unwrap_or(law);
+        Some(Self { piece, ..Self::gross(law, sense) })
     }
 
     /// Returns the gross slip branch of a direction.
     fn gross(law: &Interface, sense: f64) -> Self {
-        Self {
-            slope: law.stick_slope(),
-            factor: law.tangential_modulus() * sense,
-            level: f64::INFINITY,
-            entry: f64::NEG_INFINITY,
-            flow: 0.0,
-            height: 0.0,
-            offset: 0.0,
-            excess: 0.0,
-        }
+        Self { slope: law.stick_slope(), factor: law.tangential_modulus() * sense, piece: Piece::GROSS }
     }
 
     /// Moves the origin of displacements: all displacements grow by `by` (m).
     pub fn shift(&mut self, by: f64) {
-        self.level += self.sense() * by;
-        self.entry += self.sense() * by;
+        self.piece.shift(self.sense() * by);
     }
 
     /// Returns the slip direction: +1 forward, -1 backward.
@@ -196,7 +219,8 @@ impl Branch {
             let flat = profile.reduced_stiffness(Self::CENTRE);
             [flat * front, flat]
         };
-        let force = self.factor * (self.excess * inner + self.offset + self.slope * reduced_force);
+        let force =
+            self.factor * (self.piece.excess * inner + self.piece.offset + self.slope * reduced_force);
         [force, drive * (reduced_force - inner - (d - front) * stuck)]
     }
 
@@ -220,12 +244,7 @@ impl Branch {
 // Kept small: laws are copied at every event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lead {
-    level: f64,
-    entry: f64,
-    flow: f64,
-    height: f64,
-    offset: f64,
-    excess: f64,
+    piece: Piece,
     /// Level of the limit line at which the branch begins, m: -∞ where the slip front itself is on the branch, ∞ for a lead against the
     /// direction of slip, the largest number if there is none.
     floor: f64,
@@ -233,17 +252,10 @@ pub struct Lead {
 
 impl Lead {
     /// No branch: the slip memory gives the force.
-    pub const NONE: Self =
-        Self { level: 0.0, entry: 0.0, flow: 0.0, height: 0.0, offset: 0.0, excess: 0.0, floor: f64::MAX };
-
-    fn of(branch: &Branch, floor: f64) -> Self {
-        let Branch { level, entry, flow, height, offset, excess, .. } = *branch;
-        Self { level, entry, flow, height, offset, excess, floor }
-    }
+    pub const NONE: Self = Self { piece: Piece::GROSS, floor: f64::MAX };
 
     fn branch(&self, front: &Branch) -> Branch {
-        let Self { level, entry, flow, height, offset, excess, .. } = *self;
-        Branch { level, entry, flow, height, offset, excess, ..*front }
+        Branch { piece: self.piece, ..*front }
     }
 
     /// Returns whether there is a branch.
@@ -292,27 +304,20 @@ impl Lead {
         [self.branch(front).margin(d, u), front.sense() * u - front.slope * d - self.floor]
     }
 
-    pub(crate) fn shift(&mut self, sense: f64, by: f64) {
-        let finite = [&mut self.level, &mut self.entry, &mut self.floor];
-        finite.into_iter().filter(|level| **level != f64::MAX).for_each(|level| *level += sense * by);
+    pub(crate) fn shift(&mut self, by: f64) {
+        if self.is_some() {
+            self.piece.shift(by);
+            self.floor += by;
+        }
     }
 
     pub(crate) fn write(&self, words: &mut Vec<u64>) {
-        let Self { level, entry, flow, height, offset, excess, floor } = *self;
-        push(words, [level, entry, flow, height, offset, excess, floor]);
+        self.piece.write(words);
+        push(words, [self.floor]);
     }
 
     pub(crate) fn read(words: &mut Words<'_>) -> Option<Self> {
-        let [level, entry, flow, height, offset, excess, floor] = [(); 7].map(|()| words.number());
-        Some(Self {
-            level: level?,
-            entry: entry?,
-            flow: flow?,
-            height: height?,
-            offset: offset?,
-            excess: excess?,
-            floor: floor?,
-        })
+        Some(Self { piece: Piece::read(words)?, floor: words.number()? })
     }
 }
 
@@ -338,7 +343,7 @@ impl Curve {
         self.crossed(law, sense, sense * self.apex.u - law.stick_slope() * self.apex.d + slack).0
     }
 
-    /// Returns the branch of direction `sense` whose limit line has a level (m), and the index of the breakpoint above its last piece.
+    /// Returns the branch of direction `sense` whose limit line has a level (m), and the index of the breakpoint above its crossing.
     fn crossed(&self, law: &Interface, sense: f64, level: f64) -> (Branch, usize) {
         let (slope, gross) = (law.stick_slope(), Branch::gross(law, sense));
         // A piece parallel to the limit line has no crossing and is shifted as a whole.
@@ -351,19 +356,15 @@ impl Curve {
         let foot = if cut::runs_along(slope, sense, &self.knots[foot + 1]) { top } else { foot };
         let (base, end) = (&self.knots[foot], &self.knots[foot + 1]);
         let gain = sense * end.gain;
-        let branch = Branch {
+        let piece = Piece {
             level: base.level(sense, slope),
             entry: if foot < top { end.level(sense, slope) } else { f64::NEG_INFINITY },
             flow: 1.0 / (slope - sense * end.slope),
             height: base.h,
             offset: sense * base.shear - gain * base.reduced_force,
             excess: gain - slope,
-            ..gross
         };
-
-        // A branch with an entry lasts to the end of its path; the memory gives the force on the later pieces.
-        let later = self.knots[top + 1..].iter().take_while(|knot| foot < top && knot.joined).count();
-        (branch, top + 1 + later)
+        (Branch { piece, ..gross }, top + 1)
     }
 
     /// Returns the branch that a damped contact reaches ahead of its slip front, where it slips along `branch`.
@@ -380,15 +381,18 @@ impl Curve {
     ) -> Lead {
         let (sense, slope) = (branch.sense(), branch.slope);
         let level = sense * (at.u + lead) - slope * at.d + slack;
-        let (ahead, begin) = self.crossed(law, sense, level);
-        let same = (ahead.level, ahead.entry) == (branch.level, branch.entry);
-        let floor = match self.knots.get(begin) {
+        let (Branch { piece, .. }, above) = self.crossed(law, sense, level);
+        let same = (piece.level, piece.entry) == (branch.piece.level, branch.piece.entry);
+        // A branch with an entry begins with its path; the memory gives the force on the later pieces.
+        let is_path = piece.entry > f64::NEG_INFINITY;
+        let later = self.knots.iter().skip(above).take_while(|knot| is_path && knot.joined).count();
+        let floor = match self.knots.get(above + later) {
             _ if turned => f64::INFINITY,
             Some(begin) if !same => begin.level(sense, slope).min(level - near),
             // The slip front itself is on this branch.
             _ => f64::NEG_INFINITY,
         };
-        Lead::of(&ahead, floor)
+        Lead { piece, floor }
     }
 
     /// Returns force and slip front at the end of a straight path, for the limit line of direction `sense`.

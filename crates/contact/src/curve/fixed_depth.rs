@@ -74,11 +74,11 @@ impl Branch {
         }
         FixedDepthBranch {
             sense: self.sense(),
-            level: self.level + self.slope * d,
-            flow: self.flow,
-            height: self.height,
-            base: self.factor * (self.offset + limit),
-            gain: self.factor * self.excess,
+            level: self.piece.level + self.slope * d,
+            flow: self.piece.flow,
+            height: self.piece.height,
+            base: self.factor * (self.piece.offset + limit),
+            gain: self.factor * self.piece.excess,
         }
     }
 }

@@ -37,7 +37,7 @@ impl Equations<'_> {
         at.output(made).unwrap_or_else(|| self.make(made, at))
     }
 
-    /// Computes the first outputs of blocks and quasi-static coordinates.
+    /// Computes outputs of blocks and quasi-static coordinates, the first ones if they are many.
     pub(super) fn compute_outputs(&self, at: &impl View, outputs: &mut Outputs) {
         let count = self.blocks.len() + self.model.balanced.len();
         for made in 0..count.min(MOST_OUTPUTS) {
