@@ -155,7 +155,7 @@ impl Memory {
             return Leg::Slides;
         }
         // A contact that touches on the way begins with unstretched springs.
-        let (h, p, begin) = match self.lowest() {
+        let (h, p, begin) = match self.lowest(law) {
             (h, Some(p)) => (h, p, from),
             (h, None) if to.d > h => {
                 let u = from.u + (to.u - from.u) * ((h - from.d) / (to.d - from.d)).clamp(0.0, 1.0);
@@ -179,9 +179,12 @@ impl Memory {
     }
 
     /// Returns the height of the lowest spring, m, and its rest position if it is in contact, m.
-    fn lowest(&self) -> (f64, Option<f64>) {
+    fn lowest(&self, law: &Interface) -> (f64, Option<f64>) {
         match self {
-            Self::Curve(curve) => (0.0, curve.anchor(0.0)),
+            Self::Curve(curve) => {
+                let lowest = law.profile().lowest();
+                (lowest, curve.anchor(lowest))
+            }
             Self::Row(SpringRow { row, springs }) => (springs.lowest(), row.lowest_anchor()),
         }
     }

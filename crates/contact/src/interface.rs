@@ -317,10 +317,11 @@ impl Interface {
         if d > 0.0 { self.tangential_modulus() * self.reduced_stiffness(d) } else { 0.0 }
     }
 
-    /// Returns the gross slip displacement u_c = κd, m, at which gross slip begins. The gross slip displacement is the same for every
-    /// profile (4.28).
+    /// Returns the gross slip displacement u_c = κ(d-h₀), m, at which gross slip begins; h₀ is the height of first touch.
+    ///
+    /// h₀ is above 0 only for lists of springs. The gross slip displacement is the same for every other profile (4.28).
     pub fn gross_slip_displacement(&self, d: f64) -> f64 {
-        self.slope * d.max(0.0)
+        self.slope * (d - self.profile.lowest()).max(0.0)
     }
 
     /// Returns the natural displacement of a contact, m: u_c, or for asperities without a highest one κ times the scale of their heights.

@@ -240,13 +240,18 @@ impl Profile {
         }
     }
 
+    /// Returns the height of first touch, m: 0, or the height of the lowest spring of a list.
+    pub fn lowest(&self) -> f64 {
+        of_kind!(self, kind => kind.lowest())
+    }
+
     /// Returns the height at which the reduced force M (m²) is reached, m: the inverse of [`Self::reduced_force`].
     ///
-    /// For M ≤ 0 this is the height of first touch: 0, or that of the lowest spring of a list.
+    /// For M ≤ 0 this is the height of first touch.
     // The height of first touch avoids a jump of the indentation when a load approaches 0.
     pub fn height_of_reduced_force(&self, force: f64) -> f64 {
         if force.is_nan() || force <= 0.0 {
-            return of_kind!(self, kind => kind.lowest());
+            return self.lowest();
         }
         of_kind!(self, kind => kind.height_of_reduced_force(force))
     }

@@ -85,8 +85,8 @@ impl Branch {
     }
 
     /// Returns whether gross slip follows at the end of the branch.
-    pub fn ends_in_the_centre(&self) -> bool {
-        self.piece.height == 0.0 && !self.is_gross()
+    pub fn ends_in_gross_slip(&self, law: &Interface) -> bool {
+        self.piece.height <= law.profile().lowest() && !self.is_gross()
     }
 
     /// Returns the height of the breakpoint below the piece, m.
@@ -135,8 +135,9 @@ impl Branch {
     /// Returns the distance that the limit line has moved since the last sticking spring began to slip, m.
     ///
     /// The value is negative while any spring sticks and -∞ in gross slip, which has no end.
-    pub fn beyond(&self, d: f64, u: f64) -> f64 {
-        if self.is_gross() { f64::NEG_INFINITY } else { -self.front(d, u) / self.piece.flow }
+    pub fn beyond(&self, law: &Interface, d: f64, u: f64) -> f64 {
+        let below = || law.profile().lowest() - self.front(d, u);
+        if self.is_gross() { f64::NEG_INFINITY } else { below() / self.piece.flow }
     }
 
     /// Returns the displacement u at which the branch has the force F_x (N) at indentation d; `None` in gross slip.
@@ -153,7 +154,7 @@ impl Branch {
         let front = if reduced > 0.0 {
             profile.height_of_reduced_force(reduced)
         } else {
-            reduced * (-self.piece.excess) / profile.reduced_stiffness(d) * self.piece.flow
+            profile.lowest() + reduced * (-self.piece.excess) / profile.reduced_stiffness(d) * self.piece.flow
         };
         let margin = (front - self.piece.height) / self.piece.flow;
         Some(self.sense() * (self.piece.level - margin + self.slope * d))
@@ -353,8 +354,21 @@ impl Curve {
         // and are no events.
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
         // If the first piece is parallel to the limit line, only the last one is crossed.
-        let foot = if cut::runs_along(slope, sense, &self.knots[foot + 1]) { top } else { foot };
-        let (base, end) = (&self.knots[foot], &self.knots[foot + 1]);
+        let mut foot = if cut::runs_along(slope, sense, &self.knots[foot + 1]) { top } else { foot };
+        let mut base = self.knots[foot];
+        // Gross slip begins where the lowest spring slips.
+        let lowest = law.profile().lowest();
+        if base.h < lowest {
+            foot = self.above(lowest) - 1;
+            if foot > top {
+                return (gross, 0);
+            }
+            base = self.knots[foot].point(law, &self.knots[foot + 1], lowest);
+            if base.level(sense, slope) <= level {
+                return (gross, 0);
+            }
+        }
+        let end = &self.knots[foot + 1];
         let gain = sense * end.gain;
         let piece = Piece {
             level: base.level(sense, slope),

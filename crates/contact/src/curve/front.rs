@@ -27,7 +27,7 @@ impl Front {
             || (self.height > 0.0 && profile.reduced_stiffness(self.height) >= profile.reduced_stiffness(d))
         {
             (ContactState::Stick, profile.radius(d))
-        } else if self.height <= 0.0 {
+        } else if self.height <= profile.lowest() {
             (ContactState::Slip, 0.0)
         } else {
             (ContactState::Partial, profile.radius(self.height))

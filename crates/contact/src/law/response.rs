@@ -63,7 +63,7 @@ impl Law {
             Form::Slip(branch, _) if branch.covers(d, u) => {
                 let force = branch.force(law, d, u, law.reduced_force(d));
                 let [stiffness, coupling] = branch.tangents(law, d, u);
-                let beyond = branch.beyond(d, u);
+                let beyond = branch.beyond(law, d, u);
                 if beyond > 0.0 {
                     let (sense, whole) = (branch.sense(), law.stick_stiffness(d));
                     let along = coupling - sense * whole * law.stick_slope();

@@ -173,6 +173,32 @@ fn loading_stick_radius_and_state() {
     }
 }
 
+/// F_x = G\* Σ lᵢ min(u, κ(d-hᵢ)): a list slips as a whole where its lowest spring does.
+#[test]
+fn a_list_slips_as_a_whole_from_its_lowest_spring_on() {
+    let (heights, length) = ([0.2 * D, 0.6 * D], 1e-6);
+    let law = law(Profile::foundation(&heights, &[length; 2]).unwrap(), MU);
+    let u_c = KAPPA * 0.8 * D;
+    close(law.gross_slip_displacement(D), u_c, 1e-12 * u_c);
+    for part in [0.3, 0.51, 0.99, 1.01, 1.3] {
+        let mut curve = Curve::new(&law, Apex { d: D, u: 0.0 });
+        let to = Apex { d: D, u: part * u_c };
+        curve.commit(&law, Segment::Straight(to)).unwrap();
+        let sum: f64 = heights.map(|h| to.u.min(KAPPA * (D - h))).iter().sum();
+        close(curve.force(&law) / (G * length * sum), 1.0, 1e-12);
+        let state = match part {
+            0.3 => ContactState::Stick,
+            _ if part < 1.0 => ContactState::Partial,
+            _ => ContactState::Slip,
+        };
+        assert_eq!(
+            (curve.state(&law), curve.branch(&law, 1.0, 0.0).is_gross()),
+            (state, part > 1.0),
+            "{part}"
+        );
+    }
+}
+
 #[test]
 fn initial_stiffness() {
     // 2G*a at the start and after a reversal; along the loading curve G*m(h_c) = 2G*c.

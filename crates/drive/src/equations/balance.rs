@@ -76,7 +76,10 @@ impl Equations<'_> {
             let along = a * place + self.rest(*c, balanced.axis, at).0;
             match (self.modes[*c].branch(), balanced.axis) {
                 (_, Axis::Z) => along,
-                (Some(branch), _) => -branch.beyond(self.depth_of(&self.model.contacts[*c], at).0, along),
+                (Some(branch), _) => {
+                    let contact = &self.model.contacts[*c];
+                    -branch.beyond(&contact.interface, self.depth_of(contact, at).0, along)
+                }
                 _ => f64::INFINITY,
             }
         };

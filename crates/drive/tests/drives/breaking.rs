@@ -144,7 +144,7 @@ fn ends(scene: &Scene, plan: &Plan) -> (Vec<f64>, usize) {
     (rows.rows().flat_map(|row| columns.iter().map(|c| row[*c])).collect(), breaks)
 }
 
-/// Random drives with random kinetic coefficients. Verlet at half the step must be closer; both engines agree event by event.
+/// Random drives with random kinetic coefficients: the memory curve with event location, against velocity Verlet on rows of springs.
 fn agree(seeds: std::ops::Range<u64>) {
     let mut all = 0;
     for seed in seeds {
@@ -161,13 +161,17 @@ fn agree(seeds: std::ops::Range<u64>) {
         let duration = 3.0 * period;
         let far = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let (exact, breaks) = ends(&scene, &event(1e-9, duration));
-        let rows = on_rows(&scene, 1024);
-        let (coarse, _) = ends(&rows, &plan(Stepper::Verlet { step: period / 8_000.0 }, duration));
-        let (fine, _) = ends(&rows, &plan(Stepper::Verlet { step: period / 16_000.0 }, duration));
         let scale = exact.iter().map(|x| x.abs()).fold(stroke, f64::max);
-        let [coarse, fine] = [coarse, fine].map(|other| far(&exact, &other) / scale);
+        let off = |springs: usize, steps: f64| {
+            let rows = on_rows(&scene, springs);
+            let (other, _) = ends(&rows, &plan(Stepper::Verlet { step: period / steps }, duration));
+            far(&exact, &other) / scale
+        };
+        // Verlet is of first order here, because it does not locate the jump of the force. A row breaks loose where its lowest spring slips,
+        // which is a little above the centre. Where these errors are larger, they must fall with steps and springs.
+        let coarse = off(1024, 16e3);
+        let fine = if coarse < 1e-3 { coarse } else { off(16_384, 64e3) };
         println!("{title}: {breaks} breaks, off by {coarse:.1e}, {fine:.1e}");
-        // Verlet is of first order here, because it does not locate the jump of the force.
         assert!(fine < 1e-3, "{title}: {coarse:e} {fine:e}");
         all += breaks;
     }
@@ -176,13 +180,13 @@ fn agree(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn random_drives_break_loose_as_rows_at_fixed_steps() {
-    agree(0..10);
+    agree(0..11);
 }
 
 #[test]
 #[ignore = "takes long: .ci/full"]
 fn random_drives_break_loose_as_rows_at_fixed_steps_further_seeds() {
-    agree(10..200);
+    agree(11..200);
 }
 
 /// A quasi-static coordinate would jump at a break.

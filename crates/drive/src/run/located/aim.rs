@@ -150,7 +150,9 @@ impl<A: for<'e> Attempt<Equations<'e>>> Located<'_, A> {
         let tells = |unit: f64| left > unit * self.motion.pace.resolved;
         match state.modes[end.contact].branch() {
             _ if end.guard == Guard::Contact => tells(contact.natural.depth),
-            Some(branch) => branch.ends_in_the_centre() && tells(contact.natural.displacement),
+            Some(branch) => {
+                branch.ends_in_gross_slip(&contact.interface) && tells(contact.natural.displacement)
+            }
             None => false,
         }
     }

@@ -246,7 +246,8 @@ impl Watch {
         let speed = Guard::Drag.value(contact, eq.law(c), &motion);
         // An edge that has just reversed has a speed of zero within rounding. A step must not miss the loss of damping
         // there, and no error estimate shows it.
-        let turns = (contact.is_damped() || self.integrates_works) && branch.ends_in_the_centre();
+        let turns =
+            (contact.is_damped() || self.integrates_works) && branch.ends_in_gross_slip(&contact.interface);
         let speed = if turns { speed.max(f64::MIN_POSITIVE) } else { speed };
         let pull = Guard::Drag.rate(contact, law, &motion, second);
         reached(left, speed, pull)
