@@ -241,8 +241,9 @@ impl Profile {
     }
 
     /// Returns the height of first touch, m: 0, or the height of the lowest spring of a list.
+    #[inline]
     pub fn lowest(&self) -> f64 {
-        of_kind!(self, kind => kind.lowest())
+        self.as_foundation().map_or(0.0, |list| list.heights()[0])
     }
 
     /// Returns the height at which the reduced force M (m²) is reached, m: the inverse of [`Self::reduced_force`].
@@ -353,7 +354,12 @@ impl Profile {
     }
 
     /// Returns the list of springs, if the profile is one.
+    #[inline]
     pub(crate) fn as_foundation(&self) -> Option<&Foundation> {
-        of_kind!(self, kind => kind.as_foundation())
+        match &self.shape {
+            Shape::Foundation(list) => Some(list),
+            Shape::Rough(line) => Some(line.foundation()),
+            _ => None,
+        }
     }
 }

@@ -355,7 +355,8 @@ impl Curve {
         let foot = (0..=top).rev().find(|i| !self.knots[*i].joined).unwrap_or(0);
         // If the first piece is parallel to the limit line, only the last one is crossed.
         let mut foot = if cut::runs_along(slope, sense, &self.knots[foot + 1]) { top } else { foot };
-        let mut base = self.knots[foot];
+        let (clipped, mut base);
+        base = &self.knots[foot];
         // Gross slip begins where the lowest spring slips.
         let lowest = law.profile().lowest();
         if base.h < lowest {
@@ -363,7 +364,8 @@ impl Curve {
             if foot > top {
                 return (gross, 0);
             }
-            base = self.knots[foot].point(law, &self.knots[foot + 1], lowest);
+            clipped = self.knots[foot].point(law, &self.knots[foot + 1], lowest);
+            base = &clipped;
             if base.level(sense, slope) <= level {
                 return (gross, 0);
             }

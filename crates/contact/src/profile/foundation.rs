@@ -187,10 +187,6 @@ impl Kind for Foundation {
         Sums::height_of_reduced_force(&self.sums, &self.heights, reduced_force)
     }
 
-    fn lowest(&self) -> f64 {
-        self.heights[0]
-    }
-
     fn depth(&self, a: f64) -> f64 {
         self.height_of_reduced_stiffness(2.0 * a)
     }
@@ -206,10 +202,6 @@ impl Kind for Foundation {
     /// Returns that the stiffness jumps at each spring.
     fn has_kinks(&self) -> bool {
         true
-    }
-
-    fn as_foundation(&self) -> Option<&Foundation> {
-        Some(self)
     }
 }
 

@@ -1,7 +1,5 @@
 //! Common interface of all kinds of profiles.
 
-use super::Foundation;
-
 /// Interface of one kind of profile. Heights h and radii a are above 0 here; [`super::Profile`] handles other arguments for all kinds.
 pub(super) trait Kind {
     /// Returns the reduced stiffness m(h), m.
@@ -15,11 +13,6 @@ pub(super) trait Kind {
 
     /// Returns the height at which M > 0 (m²) is reached, m.
     fn height_of_reduced_force(&self, force: f64) -> f64;
-
-    /// Returns the height of first touch, m.
-    fn lowest(&self) -> f64 {
-        0.0
-    }
 
     /// Returns g(a), m: the lowest height with the contact radius a; infinite if no height has this radius.
     fn depth(&self, a: f64) -> f64;
@@ -77,11 +70,6 @@ pub(super) trait Kind {
 
     /// Returns the radius of a flat punch, m.
     fn punch(&self) -> Option<f64> {
-        None
-    }
-
-    /// Returns the list of springs, if the profile is one.
-    fn as_foundation(&self) -> Option<&Foundation> {
         None
     }
 }

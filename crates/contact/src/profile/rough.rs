@@ -95,6 +95,11 @@ impl Rough {
         }
     }
 
+    /// Returns the list of its springs.
+    pub(super) fn foundation(&self) -> &Foundation {
+        &self.foundation
+    }
+
     /// See [`Foundation::moment`].
     pub(super) fn moment(&self, heights: [f64; 2], straight: [f64; 2]) -> f64 {
         self.foundation.moment(heights, straight)
@@ -118,10 +123,6 @@ impl Kind for Rough {
         self.foundation.height_of_reduced_force(force)
     }
 
-    fn lowest(&self) -> f64 {
-        self.foundation.lowest()
-    }
-
     fn depth(&self, a: f64) -> f64 {
         self.foundation.depth(a)
     }
@@ -136,9 +137,5 @@ impl Kind for Rough {
 
     fn has_kinks(&self) -> bool {
         true
-    }
-
-    fn as_foundation(&self) -> Option<&Foundation> {
-        Some(&self.foundation)
     }
 }
