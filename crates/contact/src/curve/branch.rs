@@ -402,13 +402,18 @@ impl Curve {
         // A branch with an entry begins with its path; the memory gives the force on the later pieces.
         let is_path = piece.entry > f64::NEG_INFINITY;
         let later = self.knots.iter().skip(above).take_while(|knot| is_path && knot.joined).count();
-        let floor = match self.knots.get(above + later) {
-            _ if turned => f64::INFINITY,
-            Some(begin) if !same => begin.level(sense, slope).min(level - near),
+        let lowest = law.profile().lowest();
+        let begin = match self.knots.get(above + later) {
+            _ if turned => return Lead { piece, floor: f64::INFINITY },
+            // Gross slip begins where the lowest spring slips.
+            Some(_) if !same && above == 0 && lowest > 0.0 => {
+                sense * cut::anchor(&self.knots, lowest) - slope * lowest
+            }
+            Some(begin) if !same => begin.level(sense, slope),
             // The slip front itself is on this branch.
             _ => f64::NEG_INFINITY,
         };
-        Lead { piece, floor }
+        Lead { piece, floor: begin.min(level - near) }
     }
 
     /// Returns force and slip front at the end of a straight path, for the limit line of direction `sense`.

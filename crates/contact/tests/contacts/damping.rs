@@ -14,10 +14,12 @@ const BETA: f64 = 1e-6;
 const DEPTH: f64 = 1e-6;
 
 fn law(beta: f64) -> Interface {
+    law_of(Profile::paraboloid(RADIUS).unwrap(), beta)
+}
+
+fn law_of(profile: Profile, beta: f64) -> Interface {
     let steel = Material::new(210e9, 0.3).unwrap();
-    Interface::new(Pair::new(steel, steel), Profile::paraboloid(RADIUS).unwrap(), MU)
-        .unwrap()
-        .with_damping(beta)
+    Interface::new(Pair::new(steel, steel), profile, MU).unwrap().with_damping(beta)
 }
 
 fn engines(law: &Interface, count: usize) -> [Memory; 2] {
@@ -155,11 +157,14 @@ impl Site for Pressed {
 /// springs clipped one by one, for leads with and against the slip. Beyond the zero crossing the law is aimed again.
 #[test]
 fn a_lead_on_one_branch_agrees_with_springs_clipped_one_by_one() {
-    let site = Pressed(law(BETA));
-    let law = &site.0;
+    let list = [0.1, 0.3, 0.4, 0.6, 0.9, 1.2, 1.5].map(|share| share * DEPTH);
+    let list = Profile::foundation(&list, &[RADIUS / 100.0; 7]).unwrap();
+    let sites = [Profile::paraboloid(RADIUS).unwrap(), list].map(|profile| Pressed(law_of(profile, BETA)));
     let (mut with, mut against, mut crossed) = (0, 0, 0);
-    for seed in 0..60 {
+    for seed in 0..100 {
         let mut lottery = Lottery(seed);
+        let site = &sites[usize::from(seed >= 60)];
+        let law = &site.0;
         let [mut curve, mut row] = engines(law, 4000);
         for _ in 0..40 {
             let from = curve.apex();
@@ -177,21 +182,25 @@ fn a_lead_on_one_branch_agrees_with_springs_clipped_one_by_one() {
                 continue;
             }
             let (mut force, elastic) =
-                (Law::of(&site, &curve, (course, &at), 0.0, 1e-9), curve.force(law, to));
+                (Law::of(site, &curve, (course, &at), 0.0, 1e-9), curve.force(law, to));
             let sense = force.sense();
             let check = |force: &Law, at: &Motion| {
-                let [exact, found] = [damped(law, &row, at), force.damped((&site, &curve), at, elastic)[0]];
+                let [exact, found] = [damped(law, &row, at), force.damped((site, &curve), at, elastic)[0]];
                 assert_relative_eq!(found, exact, epsilon = 3e-4 * MU * law.normal_force(2.0 * DEPTH));
             };
             check(&force, &at);
+            // It begins behind its present place.
+            assert!(
+                Guard::Behind.value(site, (&curve, &force), &at) > 1e-9 * law.gross_slip_displacement(DEPTH)
+            );
             let count = if sense * at.du < 0.0 { &mut against } else { &mut with };
             *count += 1;
             let other = Motion { du: 3.0 * at.du, ..at };
-            if sense * at.du > 0.0 && Guard::Ahead.value(&site, (&curve, &force), &other) < 0.0 {
-                force.aim_lead(&site, &curve, (&other, Some((Guard::Ahead, 0.0))), 1e-9);
+            if sense * at.du > 0.0 && Guard::Ahead.value(site, (&curve, &force), &other) < 0.0 {
+                force.aim_lead(site, &curve, (&other, Some((Guard::Ahead, 0.0))), 1e-9);
                 check(&force, &other);
-                assert!(Guard::Behind.value(&site, (&curve, &force), &at) < 0.0);
-                force.aim_lead(&site, &curve, (&at, Some((Guard::Behind, 0.0))), 1e-9);
+                assert!(Guard::Behind.value(site, (&curve, &force), &at) < 0.0);
+                force.aim_lead(site, &curve, (&at, Some((Guard::Behind, 0.0))), 1e-9);
                 check(&force, &at);
                 crossed += 1;
             }
